@@ -27,6 +27,9 @@ class Index {
   /// Throws std::length_error, naming the bytes, before the memory budget would be exceeded.
   virtual void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const = 0;
 
+  /// Sorts all rays of a search, so that it would do more work if they came in pieces.
+  [[nodiscard]] virtual bool sorts_rays() const { return false; }
+
   [[nodiscard]] const Built& built() const { return built_; }
 
  protected:

@@ -26,6 +26,7 @@ void add_block(const Outcome& part, Outcome& sum) {
   sum.total_hits += part.total_hits;
   sum.stopped = part.stopped;
   sum.batches += part.batches;
+  sum.seconds.build += part.seconds.build;
   sum.seconds.search += part.seconds.search;
   sum.spheres.resize(std::max(sum.spheres.size(), part.spheres.size()));
   for (std::size_t i = 0; i < part.spheres.size(); ++i) {

@@ -35,8 +35,7 @@ class Problem {
   [[nodiscard]] std::uint64_t photons_to() const {
     return numbered() ? std::max(paths_.photon_count, paths_.photons.back() + 1) : rays_.size();
   }
-  /// The end of the rays from ray `first` on, at most `end`, whose photons are in the same block (totals.hpp). Does not split a
-  /// photon; if the first photon alone has more rays, it is the end of that photon.
+  /// The end of the rays from ray `first` on, at most `end`, whose photons are in the same block (totals.hpp).
   [[nodiscard]] std::size_t end_of_block(std::size_t first, std::size_t end, std::uint64_t first_photon) const;
   /// Place where the ray's photon met a surface, as a distance from its origin; not finite if it met none.
   [[nodiscard]] double landing(std::size_t ray) const {

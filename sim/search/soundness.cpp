@@ -143,20 +143,24 @@ CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, doub
   return checked;
 }
 
+void require_one_each(const char* what, std::size_t size, std::size_t rays) {
+  if (size != 0 && size != rays)
+    throw std::invalid_argument(fmt::format("there are {} {} for {} rays; each ray needs one", size, what, rays));
+}
+
+void require_rising(std::uint64_t ray, std::uint64_t photon, std::uint64_t before) {
+  if (photon < before)
+    throw std::invalid_argument(
+        fmt::format("ray {}: its photon has the number {}, after {}; numbers must not fall", ray, photon, before));
+}
+
 void check_paths(const PathRays& paths, std::uint64_t first, StopCheck& check) {
-  const auto require_size = [&](const char* what, std::size_t size) {
-    if (size != 0 && size != paths.rays.size())
-      throw std::invalid_argument(
-          fmt::format("there are {} {} for {} rays; each ray needs one", size, what, paths.rays.size()));
-  };
-  require_size("photon numbers", paths.photons.size());
-  require_size("landings", paths.landings.size());
-  require_size("triangles", paths.triangles.size());
+  require_one_each("photon numbers", paths.photons.size(), paths.rays.size());
+  require_one_each("landings", paths.landings.size(), paths.rays.size());
+  require_one_each("triangles", paths.triangles.size(), paths.rays.size());
   std::uint64_t before = 0;
   for_each_checked(0, paths.photons.size(), check, [&](std::size_t i) {
-    if (paths.photons[i] < before)
-      throw std::invalid_argument(fmt::format("ray {}: its photon has the number {}, after {}; numbers must not fall",
-                                              first + i, paths.photons[i], before));
+    require_rising(first + i, paths.photons[i], before);
     before = paths.photons[i];
   });
   constexpr std::uint64_t most = std::uint64_t{1} << 62;

@@ -73,6 +73,12 @@ struct CheckedRays {
 [[nodiscard]] CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power,
                                      std::uint64_t first, const StopCheck& check);
 
+/// Throws std::invalid_argument if an array that is not empty has another length than that of the rays.
+void require_one_each(const char* what, std::size_t size, std::size_t rays);
+
+/// Throws std::invalid_argument, with the ray's number, if its photon's number is below that of the ray before it.
+void require_rising(std::uint64_t ray, std::uint64_t photon, std::uint64_t before);
+
 /// Throws std::invalid_argument, with the ray's number, for a photon number below the one before it, for a landing that is
 /// < 0 or NaN, and for arrays of other lengths than that of the rays.
 void check_paths(const PathRays& paths, std::uint64_t first, StopCheck& check);

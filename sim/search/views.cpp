@@ -35,28 +35,45 @@ void require_array(const char* what, const View& view) {
 
 }  // namespace
 
-void read_rays(const RaysView& view, std::vector<Ray>& rays, int threads) {
+void read_rays(const RaysView& view, std::size_t first, std::span<Ray> rays, int threads) {
   constexpr std::size_t at_once = 4096;
   const DefaultFloatingPoint mode;
   require_count("number of threads", threads, 0, most_threads);
-  if (view.count > 0) {
+  if (!rays.empty()) {
     require_array("origins", view.origins);
     require_array("directions", view.directions);
     require_array("lengths", view.lengths);
     require_array("powers", view.powers);
   }
-  rays.resize(view.count);
-  const std::span<Ray> all = rays;
   const auto read = view.origins.floats()
                         ? view.directions.floats() ? &read_some<float, float> : &read_some<float, double>
                     : view.directions.floats() ? &read_some<double, float>
                                                : &read_some<double, double>;
-  if (threads == 1 || view.count <= at_once) return read(view, 0, all);
+  if (threads == 1 || rays.size() <= at_once) return read(view, first, rays);
   on_threads(thread_count(threads), [&] {
-    parallel_for(ParallelRange(0, view.count, at_once), [&](const ParallelRange& range) {
-      read(view, range.begin(), all.subspan(range.begin(), range.size()));
+    parallel_for(ParallelRange(0, rays.size(), at_once), [&](const ParallelRange& range) {
+      read(view, first + range.begin(), rays.subspan(range.begin(), range.size()));
     });
   });
+}
+
+Ray read_ray(const RaysView& view, std::size_t number) {
+  Ray ray;
+  read_rays(view, number, {&ray, 1});
+  return ray;
+}
+
+std::size_t end_of_piece(const RaysView& view, std::size_t first, std::size_t most) {
+  const std::size_t end = std::min(view.count, first + most);
+  const auto begins_photon = [&](std::size_t ray) {
+    return ray == view.photons.size() || view.photons[ray] != view.photons[ray - 1];
+  };
+  if (view.photons.empty()) return end;
+  std::size_t whole = end;
+  while (whole > first && !begins_photon(whole)) --whole;
+  if (whole > first) return whole;
+  for (whole = end; !begins_photon(whole);) ++whole;
+  return whole;
 }
 
 std::vector<Disc> read_discs(const DiscsView& view) {

@@ -103,9 +103,17 @@ struct DiscsView {
   NumbersView radii;
 };
 
-/// Copies the rays on so many threads (as RunOptions::threads), and normalises their directions. A direction of 0 stays 0; a
-/// direction that is not finite stays so. Throws std::invalid_argument if an array is null, or if threads are out of range.
-void read_rays(const RaysView& view, std::vector<Ray>& rays, int threads = 1);
+/// Copies the rays first … first + rays.size() - 1 on so many threads (as RunOptions::threads), and normalises their
+/// directions. A direction of 0 stays 0; a direction that is not finite stays so. Throws std::invalid_argument if an array is
+/// null, or if threads are out of range.
+void read_rays(const RaysView& view, std::size_t first, std::span<Ray> rays, int threads = 1);
+
+/// The same for one ray.
+[[nodiscard]] Ray read_ray(const RaysView& view, std::size_t number);
+
+/// `photons`, if any, has a number for each ray. The largest end of a piece of the rays that begins at ray `first`, has at most `most` rays, and does not split a photon; if
+/// the first photon alone has more rays, the end of that photon.
+[[nodiscard]] std::size_t end_of_piece(const RaysView& view, std::size_t first, std::size_t most);
 
 /// Copies the discs and normalises their normals, as read_rays does.
 [[nodiscard]] std::vector<Disc> read_discs(const DiscsView& view);

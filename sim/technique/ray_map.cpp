@@ -146,6 +146,8 @@ class RayMapIndex final : public Index {
     built_.seconds.build = watch.seconds();
   }
 
+  [[nodiscard]] bool sorts_rays() const override { return true; }
+
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     const double lists = frame_ ? VectorRays::bytes_before_splits(problem) : PlainRays::bytes_before_splits(problem);
     add_checked_bytes(what, built_.bytes + lists + 2 * found_bytes(problem, options), problem, outcome);

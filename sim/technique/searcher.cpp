@@ -1,10 +1,14 @@
 #include "searcher.hpp"
 
+#include <limits>
 #include <utility>
 
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/search/soundness.hpp"
 #include "registry.hpp"
+#include "streamed.hpp"
+#include "successive_search.hpp"
 
 namespace detp::sim {
 
@@ -46,12 +50,48 @@ const Outcome& Searcher::search(const PathRays& rays, SearchScratch& scratch, Ru
 }
 
 const Outcome& Searcher::search(const RaysView& rays, SearchScratch& scratch, const RunOptions& options) const {
+  if (const std::size_t most = piece(options.engine); rays.count > most) {
+    search_pieces(rays, most, scratch, options);
+    return scratch.outcome;
+  }
   Stopwatch watch;
-  read_rays(rays, scratch.rays, options.threads);
+  scratch.rays.resize(rays.count);
+  read_rays(rays, 0, scratch.rays, options.threads);
   const double reading = watch.lap();
   search(PathRays{scratch.rays, rays.photons, rays.landings}, scratch, options);
   scratch.outcome.seconds.prepare += reading;
   return scratch.outcome;
+}
+
+std::size_t Searcher::piece(Engine engine) const {
+  constexpr std::size_t rays = std::size_t{1} << 17;  // a multiple of rays_in_block
+  if (index_->sorts_rays()) return std::numeric_limits<std::size_t>::max();
+  return engine == Engine::simd ? rays : default_block(problem_.discs().size());
+}
+
+void Searcher::search_pieces(const RaysView& rays, std::size_t piece, SearchScratch& scratch,
+                             RunOptions options) const {
+  const DefaultFloatingPoint mode;
+  require_one_each("photon numbers", rays.photons.size(), rays.count);
+  require_one_each("landings", rays.landings.size(), rays.count);
+  options.memory = &scratch.memory;
+  scratch.memory.begin();
+  clear(scratch.outcome);
+  SuccessiveSearch pieces(*index_, problem_, options, rays.count, static_cast<double>(piece * sizeof(Ray)),
+                          scratch.outcome);
+  double reading = 0;
+  while (pieces.done() < rays.count && !pieces.stopped()) {
+    const std::size_t first = pieces.done();
+    const std::size_t count = end_of_piece(rays, first, piece) - first;
+    Stopwatch watch;
+    scratch.rays.resize(count);
+    read_rays(rays, first, scratch.rays, options.threads);
+    reading += watch.lap();
+    const auto part = [&](const auto& numbers) { return numbers.empty() ? numbers : numbers.subspan(first, count); };
+    pieces.add({scratch.rays, part(rays.photons), part(rays.landings)});
+  }
+  pieces.finish();
+  scratch.outcome.seconds.prepare += reading;
 }
 
 }  // namespace detp::sim

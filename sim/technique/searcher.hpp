@@ -19,7 +19,7 @@ namespace detp::sim {
 /// Memory for one search at a time, kept for the next search.
 struct SearchScratch {
   Scratch memory;
-  std::vector<Ray> rays;  ///< copied from a view
+  std::vector<Ray> rays;  ///< a piece of a view
   Outcome outcome;
 };
 
@@ -27,7 +27,7 @@ struct SearchScratch {
 ///
 /// What depends on the discs alone is built once. A searcher is const: many threads may search it at once, each with
 /// its own scratch. If a search on one thread is repeated at the same size, it takes nothing from the heap (except for
-/// pairs, for photon-map, and inside oneTBB).
+/// pairs, for photon-map, for views of more rays than a piece, and inside oneTBB).
 class Searcher {
  public:
   /// Borrows the discs, which must outlive the searcher; copies them if a normal must be normalised. No ray may start
@@ -49,12 +49,17 @@ class Searcher {
   /// Counts and seconds are those of the search alone. Throws as run does, and std::invalid_argument if a ray starts
   /// too far away.
   const Outcome& search(const PathRays& rays, SearchScratch& scratch, RunOptions options = {}) const;
+  /// The same for views, which are read in pieces of 2¹⁷ rays, 8 MiB. (The plain engine: default_block. ray-map: all rays.)
   const Outcome& search(const RaysView& rays, SearchScratch& scratch, const RunOptions& options = {}) const;
 
   /// Counts, time and memory of building the index.
   [[nodiscard]] const Built& built() const { return index_->built(); }
 
  private:
+  /// Number of rays of a view that are read at a time.
+  [[nodiscard]] std::size_t piece(Engine engine) const;
+  void search_pieces(const RaysView& rays, std::size_t piece, SearchScratch& scratch, RunOptions options) const;
+
   /// Uses the copies if there are any, else the borrowed discs.
   Searcher(std::vector<Disc> copies, std::span<const Disc> borrowed, const Candidate& candidate,
            std::optional<double> farthest, bool front_facing, const RunOptions& options);

@@ -5,16 +5,19 @@
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
+#include <utility>
 
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/scratch.hpp"
+#include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/index.hpp"
 #include "detp/sim/search/irradiance.hpp"
 #include "registry.hpp"
+#include "successive_search.hpp"
 
 namespace detp::sim {
 namespace {
@@ -23,62 +26,37 @@ class StreamedSearch {
  public:
   StreamedSearch(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
                  const StreamOptions& options)
-      : source_(source), candidate_(candidate), options_(options), run_(options.run), problem_(problem_of(discs)) {
+      : source_(source), options_(options), run_(options.run), problem_(problem_of(discs)) {
     const std::size_t block = options.block > 0 ? options.block : default_block(discs.size());
     streamed_.block = static_cast<std::size_t>(std::min<std::uint64_t>(block, source.size()));
     predict_bytes();
     try {
-      index_ = prepare(problem_, candidate_, run_);
+      index_ = prepare(problem_, candidate, run_);
       const Built& built = index_->built();
       streamed_.outcome.seconds = built.seconds;
       if (run_.count) streamed_.outcome.counts = built.counts;
-      streamed_.bytes = std::max(streamed_.bytes, own_bytes_ + built.bytes);
+      streamed_.bytes = own_bytes_ + built.bytes;
     } catch (const Stopped&) {
-      streamed_.outcome.stopped = true;
+      streamed_.outcome = unsearched_outcome(problem_, run_);
+      streamed_.outcome.progress.of = source_.size();
     }
-    if (run_.standard_error) totals_.keep_errors();
-    totals_.resize(discs.size());
-    run_.totals = &totals_;
     run_.memory = &scratch_;
-    run_.standard_error = false;  // of a block
   }
 
   StreamedOutcome run_all() && {
-    Outcome& outcome = streamed_.outcome;
-    outcome.progress.of = source_.size();
-    try {
-      for (std::uint64_t first = 0; first < source_.size() && !outcome.stopped; first += block_.size()) {
-        if (options_.progress) options_.progress(static_cast<double>(first) / static_cast<double>(source_.size()));
-        outcome.stopped = run_.stop.stop_requested();
-        if (!outcome.stopped) search(first);
-      }
-    } catch (const Stopped&) {  // stopped while making rays
-      outcome.stopped = true;
-    }
-    if (outcome.stopped) outcome.pairs.clear();
-    totals_.emitted(source_.photons());
-    finish(totals_, problem_.discs(), outcome);
-    if (outcome.stopped) outcome.standard_error.clear();
-    if (outcome.stopped) outcome.upper_bound.clear();
+    if (index_) search_all();
     return std::move(streamed_);
   }
 
  private:
   Problem problem_of(std::span<const Disc> discs) {
-    require_few_enough();
+    if (run_.totals != nullptr) throw std::invalid_argument("a stream has its own totals; options must have none");
+    if (source_.size() == 0) throw std::invalid_argument("there must be at least one ray");
     Stopwatch watch;
     Problem problem = make_problem_without_rays(discs, source_.farthest_from(enclosing_sphere(discs, run_.stop).centre),
                                                 options_.front_facing, run_.stop);
     streamed_.check_seconds = watch.lap();
     return problem;
-  }
-
-  void require_few_enough() const {
-    if (run_.totals != nullptr) throw std::invalid_argument("a stream has its own totals; options must have none");
-    if (source_.size() == 0) throw std::invalid_argument("there must be at least one ray");
-    if (run_.pairs && source_.size() >= UINT32_MAX)
-      throw std::length_error(
-          fmt::format("{} rays are too many for pairs; the maximum is {}", source_.size(), UINT32_MAX - 1));
   }
 
   /// Predicts the bytes needed besides those of each block's search. Throws before allocation if they do not fit.
@@ -88,47 +66,42 @@ class StreamedSearch {
     own_bytes_ =
         static_cast<double>(problem_.discs().size()) * for_a_disc +
         static_cast<double>(streamed_.block) * (sizeof(Ray) + (source_.numbered() ? sizeof(std::uint64_t) : 0));
-    streamed_.bytes = std::max(streamed_.bytes, own_bytes_);
+    streamed_.bytes = own_bytes_;
     require_memory(fmt::format("{} discs and blocks of {} rays", problem_.discs().size(), streamed_.block), own_bytes_);
   }
 
-  void search(std::uint64_t first) {
-    Stopwatch watch;
-    const std::size_t count = static_cast<std::size_t>(source_.block_end(first, streamed_.block) - first);
-    block_.resize(count);
-    on_threads(thread_count(run_.threads), [&] { source_.read_numbered(first, block_, photons_, run_.stop); });
-    streamed_.read_seconds += watch.lap();
-    set_rays(problem_, {block_, photons_, {}}, options_.run.threads, first);
-    streamed_.check_seconds += watch.lap();
-    scratch_.begin();
-    sim::search(*index_, problem_, run_, part_);
-    const std::size_t pairs = streamed_.outcome.pairs.size() + part_.pairs.size();
-    const double bytes = own_bytes_ + part_.bytes + grown_bytes(pairs, sizeof(Pair));
-    if (pairs > 0) require_memory("the pairs", bytes);
-    streamed_.bytes = std::max(streamed_.bytes, bytes);
-    add(part_, static_cast<std::uint32_t>(first), count);
-  }
-
-  void add(const Outcome& part, std::uint32_t first, std::size_t rays) {
-    Outcome& sum = streamed_.outcome;
-    add_block(part, sum);
-    sum.progress.done += part.stopped ? part.progress.done : rays;
-    sum.pairs.reserve(std::max(sum.pairs.capacity(), std::bit_ceil(sum.pairs.size() + part.pairs.size())));
-    for (const Pair& pair : part.pairs) sum.pairs.push_back({pair.ray + first, pair.disc});
+  void search_all() {
+    Outcome& outcome = streamed_.outcome;
+    SuccessiveSearch search(*index_, problem_, run_, source_.size(), own_bytes_, outcome);
+    std::vector<Ray> block;
+    std::vector<std::uint64_t> photons;  // their numbers; empty if rays have none
+    try {
+      while (search.done() < source_.size() && !search.stopped()) {
+        const std::uint64_t first = search.done();
+        if (options_.progress) options_.progress(static_cast<double>(first) / static_cast<double>(source_.size()));
+        StopCheck(run_.stop, "reading rays").now();
+        Stopwatch watch;
+        block.resize(static_cast<std::size_t>(source_.block_end(first, streamed_.block) - first));
+        on_threads(thread_count(run_.threads), [&] { source_.read_numbered(first, block, photons, run_.stop); });
+        streamed_.read_seconds += watch.lap();
+        scratch_.begin();
+        search.add({block, photons, {}});
+      }
+    } catch (const Stopped&) {  // while making rays
+      search.stop();
+    }
+    search.finish(source_.photons());
+    streamed_.check_seconds += std::exchange(outcome.seconds.prepare, 0);
+    streamed_.bytes = std::max(streamed_.bytes, outcome.bytes);
   }
 
   const RaySource& source_;
-  const Valid<Candidate>& candidate_;
   const StreamOptions& options_;
   RunOptions run_;
   StreamedOutcome streamed_;
   Problem problem_;
   std::unique_ptr<Index> index_;
-  Totals totals_;
-  std::vector<Ray> block_;
-  std::vector<std::uint64_t> photons_;  ///< their numbers; empty if rays have none
   Scratch scratch_;
-  Outcome part_;  ///< of one block
   double own_bytes_ = 0;
 };
 

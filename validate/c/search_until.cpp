@@ -23,7 +23,8 @@ class CallersRays {
     if (answer != 0) throw sim::Stopped("the function for the next rays stopped the search", {});
     const sim::RaysView view = c::view_of(&rays);
     if (view.count == 0 && !(photons > 0)) throw std::invalid_argument("the next rays: there are none, and no photons");
-    sim::read_rays(view, rays_, threads_);
+    rays_.resize(view.count);
+    sim::read_rays(view, 0, rays_, threads_);
     batch.rays = sim::PathRays(rays_);
     batch.rays.photons = view.photons;
     batch.photons = photons > 0 ? photons : static_cast<double>(view.count);

@@ -1,5 +1,6 @@
 #include "plan.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/sim/geometry/random.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/registry.hpp"
 #include "evidence.hpp"
@@ -34,6 +36,31 @@ double typical_radius(std::span<const sim::Disc> discs) {
   return same ? discs.front().radius : std::sqrt(squares / count);
 }
 
+/// A view's rays, spread evenly, at most so many that a pilot can draw all its samples from them.
+std::vector<sim::Ray> shown_rays(const sim::RaysView& view, int threads) {
+  constexpr std::size_t most = std::size_t{1} << 18;
+  std::vector<sim::Ray> rays(std::min(view.count, most));
+  if (view.count <= most) {
+    sim::read_rays(view, 0, rays, threads);
+    return rays;
+  }
+  const std::vector<std::size_t> drawn = sim::stratified_sample(view.count, most, 0, sim::Stream::pilot);
+  for (std::size_t i = 0; i < drawn.size(); ++i) rays[i] = sim::read_ray(view, drawn[i]);
+  return rays;
+}
+
+/// Throws as sim::make_problem does for malformed rays, with their numbers.
+void check_all(const sim::Problem& problem, const sim::RaysView& view, const PlanOptions& options) {
+  constexpr std::size_t at_once = std::size_t{1} << 17;
+  std::vector<sim::Ray> piece;
+  for (std::size_t first = 0; first < view.count; first += piece.size()) {
+    piece.resize(std::min(at_once, view.count - first));
+    sim::read_rays(view, first, piece, options.threads);
+    sim::Problem with_rays = problem;
+    sim::set_rays(with_rays, piece, options.threads, first);
+  }
+}
+
 }  // namespace
 
 bool Plan::is_built() const { return searcher_->is_built(); }
@@ -50,15 +77,18 @@ std::unique_ptr<sim::Index> build_index(const sim::Problem& problem, const Candi
 /// Makes the plan of some discs and rays.
 class Plan::Planner {
  public:
+  /// `rays` are some or all of those of the view, unless it is null.
   Planner(std::span<const sim::Disc> discs, std::shared_ptr<const std::vector<sim::Disc>> own_discs,
-          std::span<const sim::Ray> rays, const PlanOptions& options, double reading = 0)
+          std::span<const sim::Ray> rays, const PlanOptions& options, const sim::RaysView* view = nullptr,
+          double reading = 0)
       : options_(options),
         rays_(rays),
+        view_(view),
         reading_(reading),
         building_{.engine = options.costs.engine, .stop = options.stop, .threads = options.threads} {
     require_count("number of threads", options.threads, 0, sim::most_threads);
     if (rays.empty()) throw std::invalid_argument("a plan needs at least one ray, to see where the rays are");
-    const double count = options.rays.value_or(static_cast<double>(rays.size()));
+    const double count = options.rays.value_or(static_cast<double>(view != nullptr ? view->count : rays.size()));
     require_count("number of rays", count, 1, 1e18);
     report("checking the discs", 0, 0.1);
     sim::Problem problem = sim::searched_problem(discs, options.farthest, options.front_facing, options.stop);
@@ -112,13 +142,13 @@ class Plan::Planner {
     try {
       return look();
     } catch (const std::invalid_argument&) {
-      static_cast<void>(problem_with_rays());
+      if (view_ != nullptr)
+        check_all(basis_->problem, *view_, options_);
+      else
+        static_cast<void>(
+            sim::make_problem(rays_, basis_->problem.discs(), options_.front_facing, options_.threads, options_.stop));
       throw;
     }
-  }
-
-  [[nodiscard]] sim::Problem problem_with_rays() const {
-    return sim::make_problem(rays_, basis_->problem.discs(), options_.front_facing, options_.threads, options_.stop);
   }
 
   Plan planned(Rigor rigor, std::unique_ptr<sim::Index> index) {
@@ -136,6 +166,7 @@ class Plan::Planner {
 
   const PlanOptions& options_;
   std::span<const sim::Ray> rays_;
+  const sim::RaysView* view_;
   double reading_;  ///< seconds for reading the rays from a view, which each search does again
   sim::RunOptions building_;
   std::shared_ptr<Basis> basis_;
@@ -150,10 +181,9 @@ Plan plan(std::span<const sim::Disc> discs, std::span<const sim::Ray> rays, cons
 Plan plan(const sim::DiscsView& discs, const sim::RaysView& rays, const PlanOptions& options) {
   const sim::DefaultFloatingPoint mode;
   const auto own_discs = std::make_shared<const std::vector<sim::Disc>>(sim::read_discs(discs));
-  std::vector<sim::Ray> copied;
   const sim::Stopwatch watch;
-  sim::read_rays(rays, copied, options.threads);
-  return Plan::Planner(*own_discs, own_discs, copied, options, watch.seconds()).run();
+  const std::vector<sim::Ray> shown = shown_rays(rays, options.threads);
+  return Plan::Planner(*own_discs, own_discs, shown, options, &rays, watch.seconds()).run();
 }
 
 }  // namespace detp::validate

@@ -86,7 +86,8 @@ class Plan {
 [[nodiscard]] Plan plan(std::span<const sim::Disc> discs, std::span<const sim::Ray> rays,
                         const PlanOptions& options = {});
 
-/// The same for views. Copies the discs.
+/// The same for views. Copies the discs, and for the time of planning at most 2¹⁸ of the rays, spread evenly: a pilot draws its
+/// samples from these.
 [[nodiscard]] Plan plan(const sim::DiscsView& discs, const sim::RaysView& rays, const PlanOptions& options = {});
 
 /// A plan for the same samples with discs of another radius, and with `rays` rays in each search (default: as before), for

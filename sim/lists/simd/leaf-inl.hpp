@@ -123,11 +123,11 @@ HWY_INLINE void keep_pairs(const BlockSearch& block, std::uint32_t place, const 
 }
 
 /// Adds a disc's hits to the sums of its photons, if these have several rays: merges the three classes in ray order, and does
-/// what PhotonSums::add does, without branches that cannot be foreseen. UINT32_MAX must follow the rays of each class.
+/// what PhotonSums::add does, without branches that cannot be foreseen. The last photon stays under way, for it may have rays in
+/// the next block. UINT32_MAX must follow the rays of each class.
 HWY_NOINLINE inline void add_photons(const BlockSearch& block, std::uint32_t place,
                                      const std::array<FoundRays, classes>& found) {
   PhotonSums& sums = block.photons[place];
-  sums.close();
   const std::uint64_t* const photons = block.problem.photons().data() + block.first_ray;
   const std::uint32_t* next_x = found[0].first;
   const std::uint32_t* next_y = found[1].first;
@@ -136,10 +136,10 @@ HWY_NOINLINE inline void add_photons(const BlockSearch& block, std::uint32_t pla
   double squares_y = sums.squares.y;
   double squares_z = sums.squares.z;
   double largest = sums.largest;
-  double open = 0;
-  std::uint64_t photon = PhotonSums::no_photon;
-  std::uint64_t count = 0;
-  int axis = 3;
+  double open = sums.open;
+  std::uint64_t photon = sums.photon;
+  std::uint64_t complete = 0;
+  std::uint32_t axis = photon == PhotonSums::no_photon ? 3 : sums.axis;
   // Masks and opaque() keep the compiler from making branches of it.
   constexpr std::uint64_t all = ~std::uint64_t{0};
   static constexpr std::uint64_t masks[4][3] = {{all, 0, 0}, {0, all, 0}, {0, 0, all}, {0, 0, 0}};
@@ -165,17 +165,19 @@ HWY_NOINLINE inline void add_photons(const BlockSearch& block, std::uint32_t pla
     next_z += z == ray ? 1 : 0;
     if (HWY_LIKELY(photons[ray] != photon)) {
       close();
+      complete += axis != 3 ? 1 : 0;
       photon = photons[ray];
-      axis = (y == ray ? 1 : 0) + (z == ray ? 2 : 0);
+      axis = (y == ray ? 1U : 0U) + (z == ray ? 2U : 0U);
       open = 0;
-      ++count;
     }
     open += block.powers[ray];
   }
-  close();
   sums.squares = {squares_x, squares_y, squares_z};
   sums.largest = largest;
-  sums.add_photons(count);
+  sums.add_photons(complete);
+  sums.open = open;
+  sums.photon = photon;
+  sums.axis = axis;
 }
 
 template <bool segments, bool front_facing, int k>

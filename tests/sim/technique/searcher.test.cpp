@@ -148,11 +148,10 @@ TEST_SUITE("searcher") {
       }
     const auto at = [&](std::size_t i) { return columns[i].data(); };
     const RaysView view{.count = rays.size(), .origins = {at(0), at(1), at(2)}, .directions = {at(3), at(4), at(5)}};
-    std::vector<Ray> alone;
-    std::vector<Ray> together;
-    read_rays(view, alone);
-    read_rays(view, together, 2);
-    REQUIRE(alone.size() == rays.size());
+    std::vector<Ray> alone(rays.size());
+    std::vector<Ray> together(rays.size());
+    read_rays(view, 0, alone);
+    read_rays(view, 0, together, 2);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       REQUIRE(alone[i].origin == rays[i].origin);
       REQUIRE(glm::length(alone[i].direction - rays[i].direction) < 1e-15);
@@ -179,6 +178,78 @@ TEST_SUITE("searcher") {
                                  {Technique::box_tree, BoxTreeParameters{}}, {.standard_error = true});
     CHECK(whole == expected.standard_error);
     CHECK(whole != searcher.search(view, scratch, {.standard_error = true}).standard_error);
+  }
+
+  TEST_CASE(
+      "A view is read in pieces; results are those of all rays at once, to the last bit, and errors have the ray's "
+      "number") {
+    const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 60, 0.2, 3);
+    std::vector<Ray> rays = rays_of(5, 450'000);
+    std::vector<std::uint64_t> photons;
+    for (std::size_t i = 0; i < rays.size();
+         ++i)  // paths of 1 to 7 rays; one of 200 000 rays; some photons without rays
+      photons.push_back(i == 0                                   ? 0
+                        : i > 180'000 && i < 380'000             ? photons.back()
+                        : uniform4(1, Stream::tests, i)[2] < 0.3 ? photons.back() + 3
+                                                                 : photons.back());
+    const RaysView view{.count = rays.size(),
+                        .origins = {&rays[0].origin.x, sizeof(Ray)},
+                        .directions = {&rays[0].direction.x, sizeof(Ray)},
+                        .lengths = {&rays[0].length, sizeof(Ray)},
+                        .powers = {&rays[0].power, sizeof(Ray)}};
+    const auto with_photons = [&] {
+      RaysView numbered = view;
+      numbered.photons = photons;
+      return numbered;
+    };
+    const std::vector<Candidate> all{{Technique::box_tree, BoxTreeParameters{}},
+                                     {Technique::octree, OctreeParameters{3}},
+                                     {Technique::ray_map, RayMapParameters{}},
+                                     {Technique::sphere_cache, SphereCacheParameters{0.6, 4}}};
+    SearchScratch scratch;
+    for (const Candidate& candidate : all)
+      for (const Engine engine : {Engine::simd, Engine::plain})
+        for (const bool numbered : {false, true}) {
+          CAPTURE(describe(candidate));
+          const RunOptions options{
+              .pairs = true, .standard_error = true, .engine = engine, .threads = numbered ? 2 : 1};
+          const Outcome expected =
+              run(make_problem(PathRays{rays, numbered ? photons : std::vector<std::uint64_t>{}, {}}, discs), candidate,
+                  options);
+          const Searcher searcher(discs, candidate, 10.0, false, options);
+          const Outcome& found = searcher.search(numbered ? with_photons() : view, scratch, options);
+          CHECK(same(found, expected));
+          CHECK(found.standard_error == expected.standard_error);
+          CHECK(found.upper_bound == expected.upper_bound);
+          CHECK(found.pairs == expected.pairs);
+          CHECK(found.counts.loaded == rays.size());
+          CHECK(found.progress.done == rays.size());
+        }
+    const Searcher searcher(discs, all[0], 10.0);
+    CHECK(searcher.search(view, scratch).total_hits > 0);
+    CHECK(scratch.rays.size() <= 1U << 17);
+    double last = 0;
+    std::stop_source stop;
+    const Outcome& partial = searcher.search(view, scratch, {.stop = stop.get_token(), .progress = [&](double share) {
+                                                               CHECK(share >= last);
+                                                               last = share;
+                                                               if (share > 0.5) stop.request_stop();
+                                                             }});
+    CHECK(last <= 1);
+    REQUIRE(partial.stopped);
+    const auto done = static_cast<std::size_t>(partial.progress.done);
+    REQUIRE(done > 1U << 17);
+    CHECK(same(partial, run(make_problem(std::span(rays).first(done), discs), all[0])));
+    rays[300'000].power = -1;
+    CHECK_THROWS_WITH_AS((void)searcher.search(view, scratch), doctest::Contains("ray 300000: power"),
+                         std::invalid_argument);
+    rays[300'000].power = 1;
+    photons[400'000] = 1;
+    CHECK_THROWS_WITH_AS((void)searcher.search(with_photons(), scratch), doctest::Contains("ray 400000: its photon"),
+                         std::invalid_argument);
+    photons.resize(400'000);
+    CHECK_THROWS_WITH_AS((void)searcher.search(with_photons(), scratch),
+                         "there are 400000 photon numbers for 450000 rays; each ray needs one", std::invalid_argument);
   }
 
   TEST_CASE("Many threads search one searcher at once, each with a scratch of its own") {
