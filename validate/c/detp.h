@@ -8,7 +8,7 @@
  * on different handles may run on different threads at once; a plan may be executed by many threads, each with its own scratch.
  *
  * The caller owns all arrays. Rays and discs may be floats or doubles, with any stride; they must stay as they are during the call, which
- * copies them: 64 bytes a ray in the scratch, 56 a disc in the plan. A handle belongs to the caller, too: its free function takes the
+ * reads rays in pieces (at most 8 MiB are copied at a time; 16 MiB while a plan is made); a plan keeps 56 bytes a disc. A handle belongs to the caller, too: its free function takes the
  * address of the variable, and sets it to null, so that freeing it twice does nothing, and using it afterwards is an error, not a crash. Null handles are refused. Functions that make a handle
  * overwrite the variable.
  *
@@ -91,6 +91,16 @@ typedef struct detp_discs {
   detp_numbers radii;
 } detp_discs;
 
+/* Numbers of operations, counted (whole numbers) or expected. model/vocabulary/counts.hpp says what each is. */
+typedef struct detp_counts {
+  double loaded, segments;              /* rays; those that end */
+  double cull_tests, culls, listed;     /* tests of rays with spheres and boxes; lists made; rays in them */
+  double visits, disc_tests, doubtful;  /* discs tested with a list; ray-disc tests; those repeated in double */
+  double steps, nodes;                  /* cells and tree nodes that single rays visit */
+  double references, placements, made, sorted; /* of building: references stored, insertions, nodes, discs sorted */
+  double hits;
+} detp_counts;
+
 /* Called during long work, perhaps from other threads, one call at a time. share: of the work, 0 to 1. Returns 0 to go on, else the
  * work stops at once. */
 typedef int (*detp_progress)(void *user, const char *what, double share);
@@ -158,6 +168,7 @@ typedef struct detp_search_options {
   size_t size;
   int threads; /* 0: those of the plan */
   int pairs;   /* not 0: keep the pairs, for detp_pairs */
+  int count;   /* not 0: count operations, which takes some time */
   detp_progress progress;
   void *user;
 } detp_search_options;
@@ -171,7 +182,10 @@ typedef struct detp_found {
   double *upper_bound;    /* one-sided, 95 %, of the irradiance */
   /* set by the search: */
   uint64_t total_hits;
-  double seconds; /* of the search */
+  double seconds;         /* of the search, the next two included */
+  double reading_seconds; /* for reading and checking the rays */
+  double build_seconds;   /* for what depends on the rays */
+  detp_counts counts;     /* 0, but for the hits, unless options.count */
   int stopped;    /* not 0: hits and irradiance are those of a part of the rays */
 } detp_found;
 
@@ -234,6 +248,38 @@ typedef struct detp_workload {
  * bytes (200 suffice). costs may be null: the built-in ones. threads: at most; 0: all cores. */
 DETP_API detp_status detp_choose(const detp_workload *workload, const detp_costs *costs, int threads, char *text,
                                  size_t room, detp_plan_facts *facts, detp_error *error);
+
+/* One sphere of the sphere cache, S_i. */
+typedef struct detp_sphere {
+  double radius;       /* r_i = r_0 Q^i */
+  double rays;         /* n_i: expected number of rays that cross it */
+  double listed;       /* rays in its list */
+  double rebuilds;     /* m_i */
+  double rebuild_cost; /* t_i: ray-sphere tests of one rebuild */
+} detp_sphere;
+
+typedef struct detp_prediction {
+  size_t size;
+  detp_sphere *spheres; /* of a sphere cache: S_1, S_2 …; may be null */
+  size_t room;          /* for so many spheres */
+  /* set by the call: */
+  uint64_t k;           /* number of spheres of the cache; as many are written as there is room for */
+  detp_counts counts;
+  double build_seconds;     /* sorting included */
+  double rebuild_seconds;   /* T_R: making lists */
+  double intersect_seconds; /* T_I: ray-disc tests, and recording hits */
+  double seconds;           /* all of it, other phases included, on so many threads: */
+  int threads;
+} detp_prediction;
+
+/* Closed forms of one technique on a workload. parameters: JSON, as in detp_plan_facts; those that are missing, or all if it is null,
+ * become the best ones: {"ratio":0.65} gives Q and leaves k open; of "sphere-cache" with {}, Q is the best ratio. published: not 0: the
+ * formulas as they were published (sphere-cache with ratio and spheres; k is theirs unless given), else the corrected ones.
+ * The parameters that are taken are written to `text`, which has room for `room` bytes (200 suffice). costs may be null: the built-in
+ * ones. threads: at most; 0: all cores. */
+DETP_API detp_status detp_predict(const detp_workload *workload, const char *technique, const char *parameters,
+                                  int published, const detp_costs *costs, int threads, char *text, size_t room,
+                                  detp_prediction *prediction, detp_error *error);
 
 /* ---- every other question ---- */
 

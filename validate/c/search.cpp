@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "counts.hpp"
 #include "guard.hpp"
 #include "handles.hpp"
 #include "progress.hpp"
@@ -31,13 +32,11 @@ detp_status detp_search(const detp_plan* plan, const detp_rays* rays, detp_scrat
     const detp_search_options own = options != nullptr ? c::known(options, "options") : detp_search_options{};
     const sim::RaysView view = c::view_of(rays);
     const c::Watch watch(own.progress, own.user);
-    sim::RunOptions wanted{.count = false,
+    sim::RunOptions wanted{.count = own.count != 0,
                            .pairs = own.pairs != 0,
                            .standard_error = ours.standard_error != nullptr || ours.upper_bound != nullptr,
                            .stop = watch.token(),
                            .threads = own.threads != 0 ? own.threads : one.plan.threads()};
-    if (own.pairs != 0 && view.count > std::numeric_limits<std::uint32_t>::max())
-      throw std::length_error("pairs have 32 bits for a ray's number; there are more rays");
     if (own.progress != nullptr) wanted.progress = [&](double share) { watch.show("searching", share); };
     memory.has_pairs = false;
     const sim::Outcome& outcome = validate::execute(one.plan, view, memory.memory, wanted);
@@ -49,6 +48,9 @@ detp_status detp_search(const detp_plan* plan, const detp_rays* rays, detp_scrat
     copy(outcome.upper_bound, ours.upper_bound, one.discs);
     ours.total_hits = outcome.total_hits;
     ours.seconds = outcome.seconds.total();
+    ours.reading_seconds = outcome.seconds.prepare;
+    ours.build_seconds = outcome.seconds.build;
+    ours.counts = c::counts_of(as_expected(outcome.counts));
     ours.stopped = outcome.stopped ? 1 : 0;
     c::write_back(found, ours);
     if (outcome.stopped) throw sim::Stopped("the search was stopped", outcome.progress);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "detp/model/rank/choose.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 
 namespace detp {
@@ -38,18 +39,22 @@ nlohmann::ordered_json to_json(const Candidate& candidate) {
   return json;
 }
 
-Candidate candidate_of(Technique technique, const nlohmann::ordered_json& parameters) {
+model::FixedParameters fixed_parameters_of(Technique technique, const nlohmann::ordered_json& parameters) {
   if (!parameters.is_object()) throw std::invalid_argument("the parameters must be an object");
-  Candidate candidate = default_candidate(technique);
+  model::FixedParameters fixed;
   for (const auto& [key, value] : parameters.items()) {
     std::string parameter_name = key;
     std::replace(parameter_name.begin(), parameter_name.end(), '_', '-');
     const Parameter* const parameter = find_parameter(technique, parameter_name);
     if (parameter == nullptr)
       throw std::invalid_argument(fmt::format("{} is no parameter of {}", detp::quoted(key), name(technique)));
-    set_parameter(candidate, parameter->name, value_of(value, *parameter));
+    fixed.values.emplace_back(parameter->name, value_of(value, *parameter));
   }
-  return candidate;
+  return fixed;
+}
+
+Candidate candidate_of(Technique technique, const nlohmann::ordered_json& parameters) {
+  return model::candidate_with(technique, fixed_parameters_of(technique, parameters));
 }
 
 }  // namespace detp

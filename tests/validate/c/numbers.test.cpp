@@ -1,0 +1,143 @@
+#include <detp.h>
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+TEST_SUITE("c interface") {
+  TEST_CASE("numbers alone are enough to choose; a newer caller's struct is taken as far as it is known") {
+    detp_workload workload = DETP_INIT(detp_workload);
+    workload.rays = 1e5;
+    workload.samples = 1e4;
+    workload.disc_radius = 0.02;
+    workload.scene_side = 2;
+    char text[200];
+    detp_error error{};
+    detp_plan_facts facts = DETP_INIT(detp_plan_facts);
+    REQUIRE(detp_choose(&workload, nullptr, 1, text, sizeof(text), &facts, &error) == DETP_OK);
+    CHECK(facts.predicted_seconds > 0);
+    CHECK(facts.technique == text);
+    CHECK(facts.parameters[0] == '{');
+    CHECK(facts.threads == 1);
+    struct {
+      detp_workload known;
+      double more;
+    } newer{workload, 0};
+    newer.known.size = sizeof(newer);
+    CHECK(detp_choose(&newer.known, nullptr, 1, text, sizeof(text), &facts, &error) == DETP_OK);
+    newer.more = 1;
+    CHECK(detp_choose(&newer.known, nullptr, 1, text, sizeof(text), &facts, &error) == DETP_INVALID);
+    CHECK(std::string(error.text).find("does not know") != std::string::npos);
+    CHECK(detp_choose(&workload, nullptr, 1, text, 5, &facts, &error) == DETP_INVALID);
+    workload.disc_radius = 0;
+    CHECK(detp_choose(&workload, nullptr, 1, text, sizeof(text), &facts, &error) == DETP_INVALID);
+    detp_costs* costs = nullptr;
+    REQUIRE(detp_costs_built_in(&costs, &error) == DETP_OK);
+    detp_costs_free(&costs);
+    CHECK(costs == nullptr);
+    CHECK(detp_costs_measured(-1, 0, nullptr, nullptr, &costs, &error) == DETP_INVALID);
+    CHECK(std::string(detp_version()) != "");
+  }
+
+  TEST_CASE("closed forms are those of the command, published and corrected; best parameters are filled in") {
+    detp_workload workload = DETP_INIT(detp_workload);
+    workload.rays = 1e5;
+    workload.samples = 1e4;
+    workload.disc_radius = 0.02;
+    workload.scene_side = 2;
+    char text[200];
+    detp_error error{};
+    std::vector<detp_sphere> spheres(64);
+    for (const bool published : {false, true}) {
+      detp_prediction found = DETP_INIT(detp_prediction);
+      found.spheres = spheres.data();
+      found.room = spheres.size();
+      REQUIRE_MESSAGE(detp_predict(&workload, "sphere-cache", R"({"ratio":0.65,"spheres":8})", published ? 1 : 0,
+                                   nullptr, 1, text, sizeof(text), &found, &error) == DETP_OK,
+                      error.text);
+      const char* const words[] = {"model",   "--samples",    "10000",
+                                   "--rays",  "100000",       "--disc-radius",
+                                   "0.02",    "--scene-side", "2",
+                                   "--ratio", "0.65",         "--spheres",
+                                   "8",       "--form",       published ? "published" : "corrected"};
+      char* json = nullptr;
+      REQUIRE(detp_ask(words, std::size(words), nullptr, nullptr, &json, &error) == DETP_OK);
+      const nlohmann::json expected = nlohmann::json::parse(json);
+      detp_text_free(&json);
+      CHECK(nlohmann::json::parse(text)["spheres"] == 8);
+      CHECK(found.k == 8);
+      CHECK(found.counts.disc_tests == expected["counts"]["disc_tests"].get<double>());
+      CHECK(found.counts.cull_tests == expected["counts"]["cull_tests"].get<double>());
+      CHECK(found.counts.hits == expected["counts"]["hits"].get<double>());
+      CHECK(found.rebuild_seconds > 0);
+      CHECK(found.intersect_seconds > 0);
+      CHECK(found.seconds >= found.rebuild_seconds + found.intersect_seconds);
+      for (std::size_t i = 0; i < 8; ++i) {
+        const nlohmann::json& level = expected["spheres"][i];
+        CHECK(spheres[i].radius == level["radius"].get<double>());
+        CHECK(spheres[i].rays == level["rays"].get<double>());
+        CHECK(spheres[i].rebuilds == level["rebuilds"].get<double>());
+        CHECK(spheres[i].rebuild_cost == level["rebuild_cost"].get<double>());
+      }
+    }
+    detp_prediction best = DETP_INIT(detp_prediction);
+    detp_prediction with_ratio = DETP_INIT(detp_prediction);
+    REQUIRE(detp_predict(&workload, "sphere-cache", nullptr, 0, nullptr, 1, text, sizeof(text), &best, &error) ==
+            DETP_OK);
+    CHECK(nlohmann::json::parse(text).contains("ratio"));
+    REQUIRE(detp_predict(&workload, "sphere-cache", R"({"ratio":0.3})", 0, nullptr, 1, text, sizeof(text), &with_ratio,
+                         &error) == DETP_OK);
+    CHECK(nlohmann::json::parse(text)["ratio"] == 0.3);
+    CHECK(best.seconds < with_ratio.seconds);
+    detp_plan_facts facts = DETP_INIT(detp_plan_facts);
+    REQUIRE(detp_choose(&workload, nullptr, 1, text, sizeof(text), &facts, &error) == DETP_OK);
+    const std::string parameters = facts.parameters;
+    const std::string technique = facts.technique;
+    REQUIRE(detp_predict(&workload, technique.c_str(), parameters.c_str(), 0, nullptr, 1, text, sizeof(text), &best,
+                         &error) == DETP_OK);
+    CHECK(text == parameters);
+    CHECK(best.seconds == facts.predicted_seconds);
+    const auto refused = [&](const char* name, const char* given, int published, const std::string& part) {
+      CHECK(detp_predict(&workload, name, given, published, nullptr, 1, text, sizeof(text), &best, &error) ==
+            DETP_INVALID);
+      CHECK_MESSAGE(std::string(error.text).find(part) != std::string::npos, error.text, " has no ", part);
+    };
+    refused(nullptr, nullptr, 0, "technique is null");
+    refused("sphere-cash", nullptr, 0, "sphere-cash");
+    refused("sphere-cache", "{", 0, "JSON");
+    refused("sphere-cache", R"({"depth":3})", 0, "no parameter");
+    refused("sphere-cache", R"({"ratio":1.5})", 0, "ratio");
+    refused("octree", nullptr, 1, "published");
+    refused("sphere-cache", nullptr, 1, "ratio");
+    refused("bvh", nullptr, 0, "closed form");
+  }
+
+  TEST_CASE("every question of the command can be asked, and is answered as JSON") {
+    const char* const words[] = {"model",         "--samples", "1000",         "--rays", "100",
+                                 "--disc-radius", "0.02",      "--scene-side", "2"};
+    char* json = nullptr;
+    detp_error error{};
+    REQUIRE(detp_ask(words, std::size(words), nullptr, nullptr, &json, &error) == DETP_OK);
+    const nlohmann::json answer = nlohmann::json::parse(json);
+    CHECK(answer["schema"]["name"] == "detp.model");
+    CHECK(answer["k"].get<int>() > 0);
+    detp_text_free(&json);
+    CHECK(json == nullptr);
+    const char* const bad[] = {"model", "--sample", "1000"};
+    CHECK(detp_ask(bad, std::size(bad), nullptr, nullptr, &json, &error) == DETP_INVALID);
+    CHECK(std::string(error.text).find("--sample") != std::string::npos);
+    CHECK(detp_ask(nullptr, 1, nullptr, nullptr, &json, &error) == DETP_INVALID);
+    const char* const missing[] = {"run", "/nowhere/scene.obj"};
+    CHECK(detp_ask(missing, 2, nullptr, nullptr, &json, &error) == DETP_FILE);
+    const char* const help[] = {"--help"};
+    CHECK(detp_ask(help, 1, nullptr, nullptr, &json, &error) == DETP_INVALID);
+    const char* const long_work[] = {"validate", "--seed", "1"};
+    const auto stop = [](void*, const char*, double) { return 1; };
+    const detp_status stopped = detp_ask(long_work, 3, stop, nullptr, &json, &error);
+    if (stopped == DETP_OK) CHECK(nlohmann::json::parse(json)["stopped"] == true);
+    CHECK((stopped == DETP_OK || stopped == DETP_STOPPED));
+    detp_text_free(&json);
+  }
+}
