@@ -49,7 +49,7 @@ TEST_SUITE("c interface") {
       search.threads = static_cast<int>(random() % 3);
       detp_plan_facts facts = DETP_INIT(detp_plan_facts);
       detp_status status = DETP_OK;
-      switch (random() % 9) {
+      switch (random() % 10) {
         case 0: {
           detp_plan*& plan = one_of(plans);
           detp_plan_free(&plan);
@@ -83,6 +83,24 @@ TEST_SUITE("c interface") {
           detp_costs_free(&costs);
           if (random() % 2 == 0) status = detp_costs_built_in(&costs, &error);
           break;
+        case 8: {
+          static const std::vector<const char*> techniques{"sphere-cache", "octree", "bvh", "none", nullptr};
+          static const std::vector<const char*> parameters{nullptr, "{}", "{\"ratio\":0.5}", "{\"depth\":3}", "[", ""};
+          detp_workload workload = DETP_INIT(detp_workload);
+          workload.rays = 1000;
+          workload.samples = 100;
+          workload.disc_radius = number();
+          workload.scene_side = 2;
+          char text[200];
+          detp_prediction prediction = DETP_INIT(detp_prediction);
+          std::vector<detp_sphere> spheres(random() % 8);
+          prediction.spheres = random() % 4 == 0 ? nullptr : spheres.data();
+          prediction.room = spheres.size();
+          status = detp_predict(&workload, techniques[random() % techniques.size()],
+                                parameters[random() % parameters.size()], static_cast<int>(random() % 2), costs, 1,
+                                text, random() % 200, &prediction, &error);
+          break;
+        }
         default:
           detp_plan_free(&one_of(plans));
       }
