@@ -21,7 +21,7 @@ detp_status detp_costs_measured(double seconds, int store, detp_progress progres
   return c::guarded(error, [&] {
     detp_costs*& made = c::given(costs, "costs");
     require_positive("seconds", seconds);
-    const c::Watch watch(progress, user);
+    c::Watch watch(progress, user, "calibrating");
     const validate::Calibration measured =
         validate::calibrate({.seconds = seconds, .stop = watch.token(), .progress = watch.report()});
     if (measured.stopped) throw sim::Stopped("the calibration was stopped", {});

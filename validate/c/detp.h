@@ -101,7 +101,7 @@ typedef struct detp_counts {
   double hits;
 } detp_counts;
 
-/* Called during long work, perhaps from other threads, one call at a time. share: of the work, 0 to 1. Returns 0 to go on, else the
+/* Called at least ten times a second during long work, perhaps from other threads, one call at a time. share: of the work, 0 to 1. Returns 0 to go on, else the
  * work stops at once. */
 typedef int (*detp_progress)(void *user, const char *what, double share);
 
@@ -285,7 +285,7 @@ DETP_API detp_status detp_predict(const detp_workload *workload, const char *tec
 
 /* What the command `detp WORDS... --format json` prints: closed forms and the best Q (`model`), what accuracy costs (`accuracy`), runs that stop
  * at an error (`run ... --target-noise`), verdicts (`validate`), scenes. The text is to be freed. Nothing is printed; files are written only
- * where the words name them. progress is called ten times a second, with a share of 0, so that it can stop the work. */
+ * where the words name them. progress can stop the work; its share is always 0. */
 DETP_API detp_status detp_ask(const char *const *words, size_t count, detp_progress progress, void *user, char **json,
                               detp_error *error);
 DETP_API void detp_text_free(char **text);

@@ -41,7 +41,7 @@ detp_status detp_plan_create(const detp_discs* discs, const detp_rays* rays, con
     const detp_plan_options own = options != nullptr ? c::known(options, "options") : detp_plan_options{};
     const sim::DiscsView discs_view = c::view_of(discs);
     const sim::RaysView rays_view = c::view_of(rays);
-    const c::Watch watch(own.progress, own.user);
+    c::Watch watch(own.progress, own.user, "planning");
     validate::PlanOptions wanted{.rays = unless_zero(own.rays),
                                  .farthest = unless_zero(own.farthest),
                                  .front_facing = own.front_facing != 0,

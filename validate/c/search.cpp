@@ -31,7 +31,7 @@ detp_status detp_search(const detp_plan* plan, const detp_rays* rays, detp_scrat
     detp_found ours = c::known(found, "found");
     const detp_search_options own = options != nullptr ? c::known(options, "options") : detp_search_options{};
     const sim::RaysView view = c::view_of(rays);
-    const c::Watch watch(own.progress, own.user);
+    c::Watch watch(own.progress, own.user, "searching");
     sim::RunOptions wanted{.count = own.count != 0,
                            .pairs = own.pairs != 0,
                            .standard_error = ours.standard_error != nullptr || ours.upper_bound != nullptr,

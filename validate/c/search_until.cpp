@@ -51,7 +51,7 @@ extern "C" detp_status detp_search_until(const detp_plan* plan, detp_next_rays n
     const validate::ErrorTarget error_target{.error = wanted.noise,
                                              .confidence = wanted.confidence == 0 ? 0.95 : wanted.confidence};
     check(error_target);
-    const c::Watch watch(progress, user);
+    c::Watch watch(progress, user, "searching");
     CallersRays rays(next, next_user, one.plan.threads());
     validate::UntilOptions options{.progress = watch.report()};
     if (wanted.most_rays != 0) options.most_rays = wanted.most_rays;
