@@ -26,6 +26,12 @@ if(NOT symbols STREQUAL kept)
   message(SEND_ERROR "the library exports ${symbols}\nsymbols.txt has ${kept}")
 endif()
 
+# A program may close the library while threads of oneTBB still run.
+execute_process(COMMAND readelf -d ${library} OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY)
+if(NOT flags MATCHES "NODELETE")
+  message(SEND_ERROR "the library would be unloaded")
+endif()
+
 find_program(PKG_CONFIG pkg-config REQUIRED)
 set(ENV{PKG_CONFIG_PATH} ${package_folder})
 execute_process(COMMAND ${PKG_CONFIG} --cflags --libs detp-c OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY

@@ -1,0 +1,28 @@
+# Runs the tests and the examples of the Python package as it is installed: by pip, in a virtual environment of Debian's packages. Called with
+# -D SOURCE=<project> -D BUILD=<folder> -D LIBRARY=<libdetp.so>.
+set(place ${BUILD}/python)
+set(python /usr/bin/python3)
+execute_process(COMMAND ${python} -c "import cffi, matplotlib, numpy, pandas, pip, setuptools, venv, wheel" RESULT_VARIABLE failed ERROR_QUIET)
+find_program(MYPY mypy)
+if(failed OR NOT MYPY)
+  message("skipped: Debian's packages of .ci/python-packages.txt are not installed")
+  return()
+endif()
+
+function(run)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${place} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+file(REMOVE_RECURSE ${place})
+file(MAKE_DIRECTORY ${place})
+set(ENV{DETP_LIBRARY} ${LIBRARY})
+run(${python} -m venv --system-site-packages ${place}/venv)
+run(${place}/venv/bin/pip install --quiet --no-build-isolation ${SOURCE})
+unset(ENV{DETP_LIBRARY})
+set(ENV{MPLCONFIGDIR} ${place})
+run(${place}/venv/bin/python -m unittest discover --start-directory ${SOURCE}/tests/python)
+file(GLOB examples ${SOURCE}/validate/python/examples/*.py)
+foreach(example ${examples})
+  run(${place}/venv/bin/python ${example})
+endforeach()
+execute_process(COMMAND ${MYPY} --cache-dir=${place}/mypy WORKING_DIRECTORY ${SOURCE} COMMAND_ERROR_IS_FATAL ANY)

@@ -1,0 +1,157 @@
+"""Plans, stops, threads, questions."""
+
+import gc
+import os
+import signal
+import sys
+import threading
+import time
+import unittest
+from typing import Any, Dict, List, Optional
+
+import detp
+import numpy as np
+from problems import same, some_discs, some_rays
+
+try:
+    import pandas
+except ImportError:
+    pandas = None
+
+
+class Calls(unittest.TestCase):
+    def test_a_plan_keeps_what_it_needs(self) -> None:
+        centres, normals = some_discs(400)
+        rays = detp.Rays(*some_rays(3000))
+        plan = detp.plan(detp.Discs(centres, normals, 0.1), rays)
+        expected = plan.search(rays)
+        centres[:] = np.nan
+        del centres, normals
+        gc.collect()
+        self.assertTrue(same(plan.search(rays), expected))
+        smaller = plan.with_radius(0.05)
+        del plan
+        gc.collect()
+        self.assertTrue(0 < smaller.search(rays).total_hits < expected.total_hits)
+        self.assertGreater(smaller.predicted_seconds, 0)
+        with self.assertRaisesRegex(ValueError, "radius"):
+            smaller.with_radius(-1)
+
+    def test_threads_search_one_plan_at_once(self) -> None:
+        rays = detp.Rays(*some_rays(20000))
+        plan = detp.plan(detp.Discs(*some_discs(2000), 0.05), rays)
+        expected = plan.search(rays, pairs=True)
+        wrong: List[int] = []
+
+        def work() -> None:
+            for _ in range(5):
+                found = plan.search(rays, pairs=True)
+                if not same(found, expected) or not found.rays_of(7).tolist() == expected.rays_of(7).tolist():
+                    wrong.append(1)
+
+        threads = [threading.Thread(target=work) for _ in range(4)]
+        for one in threads:
+            one.start()
+        for one in threads:
+            one.join()
+        self.assertEqual(wrong, [])
+
+    def test_progress_is_shown_and_what_it_raises_arrives(self) -> None:
+        rays = detp.Rays(*some_rays(400_000))
+        seen: List[float] = []
+        plan = detp.plan(detp.Discs(*some_discs(2000), 0.02), rays, progress=lambda what, share: seen.append(share))
+        self.assertGreater(len(seen), 0)
+        seen.clear()
+        plan.search(rays, progress=lambda what, share: seen.append(share))
+        self.assertEqual(seen, sorted(seen))
+        self.assertEqual(seen[-1], 1)
+
+        def stop(what: str, share: float) -> None:
+            raise LookupError(what)
+
+        for call in (lambda: plan.search(rays, progress=stop), lambda: detp.ask("validate", progress=stop),
+                     lambda: detp.plan(detp.Discs(*some_discs(2000), 0.02), rays, progress=stop)):
+            with self.assertRaises(LookupError):
+                call()
+
+        def bad(wanted: int) -> Optional[detp.Rays]:
+            raise LookupError("rays")
+
+        with self.assertRaises(LookupError):
+            plan.search_until(bad, 0.05)
+        with self.assertRaisesRegex(ValueError, "noise|error"):
+            plan.search_until(lambda wanted: None, 2)
+
+    def test_ctrl_c_ends_long_work_at_once(self) -> None:
+        for seconds, work in [(0.5, lambda: detp.ask("validate")), (0.3, lambda: detp.Costs.measured(10))]:
+            timer = threading.Timer(seconds, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            begin = time.monotonic()
+            with self.assertRaises(KeyboardInterrupt):
+                work()
+            self.assertLess(time.monotonic() - begin, seconds + 2)
+            timer.join()
+
+    def test_a_search_until_an_error_ends_there(self) -> None:
+        discs = detp.Discs(*some_discs(500), 0.2)
+        plan = detp.plan(discs, detp.Rays(*some_rays(1000)))
+        seeds = iter(range(10, 10_000))
+
+        def batch(wanted: int) -> detp.Batch:
+            return detp.Batch(detp.Rays(*some_rays(wanted, seed=next(seeds)), 2.0), scale=1 / wanted)
+
+        estimate = plan.search_until(batch, 0.05)
+        self.assertTrue(estimate.reached)
+        self.assertLess(estimate.noise_high, 0.0501)
+        self.assertLess(estimate.noise_low, estimate.noise)
+        self.assertIsNone(estimate.share_bound)
+        batches = iter([batch(5000)])
+        few = plan.search_until(lambda wanted: next(batches, None), 0.001)
+        self.assertFalse(few.reached)
+        far = plan.search_until(lambda wanted: detp.Rays(np.full((wanted, 3), 50.0), np.ones((wanted, 3)), 1.0), 0.05,
+                                most_rays=20000)
+        self.assertFalse(far.reached)
+        self.assertGreater(far.share_bound or 0, 0)
+
+    def test_numbers_alone(self) -> None:
+        numbers: Dict[str, Any] = {"rays": 1e5, "samples": 1e4, "disc_radius": 0.02, "scene_side": 2}
+        words = ["--rays", "100000", "--samples", "10000", "--disc-radius", "0.02", "--scene-side", "2"]
+        choice = detp.choose(**numbers, threads=1)
+        again = detp.predict(choice.technique, **numbers, **choice.parameters)
+        self.assertEqual(again.seconds, choice.predicted_seconds)
+        for form in ("published", "corrected"):
+            found = detp.predict("sphere-cache", ratio=0.65, spheres=9, published=form == "published", **numbers)
+            expected = detp.ask("model", *words, "--ratio", 0.65, "--spheres", 9, "--form", form)
+            self.assertEqual(found.counts, expected["counts"])
+            self.assertEqual(list(found.spheres["rebuilds"]), [one["rebuilds"] for one in expected["spheres"]])
+            self.assertEqual(list(found.spheres["rays"]), [one["rays"] for one in expected["spheres"]])
+        for text, wrong in [("no technique", lambda: detp.predict("sphere-cash", **numbers)),
+                            ("no parameter", lambda: detp.predict("octree", ratio=0.5, **numbers)),
+                            ("radius", lambda: detp.choose(rays=1, samples=1, disc_radius=0, scene_side=1)),
+                            ("--nope", lambda: detp.ask("model", "--nope"))]:
+            with self.subTest(text), self.assertRaisesRegex(ValueError, text):
+                wrong()
+        with self.assertRaises(OSError):
+            detp.ask("run", "/nowhere/scene.obj")
+        self.assertIn("built", repr(detp.Costs.built_in()))
+
+    def test_results_look_like_tables(self) -> None:
+        rays = detp.Rays(*some_rays(3000))
+        plan = detp.plan(detp.Discs(*some_discs(40), 0.3), rays, costs=detp.Costs.stored())
+        found = plan.search(rays, standard_error=True, counts=True)
+        shown: List[Any] = [plan, found, detp.choose(rays=10, samples=10, disc_radius=0.1, scene_side=2)]
+        for one in shown:
+            self.assertIn("<table>", one._repr_html_())
+            self.assertIn(type(one).__name__, repr(one))
+        self.assertEqual((found.counts or {})["hits"], found.total_hits)
+        with self.assertRaisesRegex(ValueError, "pairs=True"):
+            found.rays_of(0)
+        with self.assertRaises(IndexError):
+            plan.search(rays, pairs=True).rays_of(40)
+        if pandas is None:
+            self.skipTest("no pandas")
+        self.assertEqual(list(found.to_pandas().columns), ["hits", "irradiance", "standard_error", "upper_bound"])
+
+
+if __name__ == "__main__":
+    unittest.main()
