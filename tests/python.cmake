@@ -1,10 +1,13 @@
 # Runs the tests and the examples of the Python package as it is installed: by pip, in a virtual environment of Debian's packages. Called with
 # -D SOURCE=<project> -D BUILD=<folder> -D LIBRARY=<libdetp.so>.
 set(place ${BUILD}/python)
-set(python /usr/bin/python3)
-execute_process(COMMAND ${python} -c "import cffi, matplotlib, numpy, pandas, pip, setuptools, venv, wheel" RESULT_VARIABLE failed ERROR_QUIET)
-find_program(MYPY mypy)
-if(failed OR NOT MYPY)
+cmake_policy(VERSION 3.25)
+find_program(python python3 PATHS /usr/bin NO_DEFAULT_PATH)  # Debian's, which its packages are for
+find_program(mypy mypy)
+if(python)
+  execute_process(COMMAND ${python} -c "import setuptools, cffi, matplotlib, numpy, pandas, pip, venv, wheel" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
+endif()
+if(NOT python OR missing OR NOT mypy)
   message("skipped: Debian's packages of .ci/python-packages.txt are not installed")
   return()
 endif()
@@ -25,4 +28,4 @@ file(GLOB examples ${SOURCE}/validate/python/examples/*.py)
 foreach(example ${examples})
   run(${place}/venv/bin/python ${example})
 endforeach()
-execute_process(COMMAND ${MYPY} --cache-dir=${place}/mypy WORKING_DIRECTORY ${SOURCE} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${mypy} --cache-dir=${place}/mypy WORKING_DIRECTORY ${SOURCE} COMMAND_ERROR_IS_FATAL ANY)

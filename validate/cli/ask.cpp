@@ -21,6 +21,7 @@ Json ask(const std::vector<std::string>& words, const std::stop_token& stop) {
     if (common.memory_limit) throw std::invalid_argument("--memory-limit is for the command alone");
     if (common.time_limit != 0)
       throw std::invalid_argument("--time-limit is for the command alone; stop the call instead");
+    common.format = "json";  // some commands make nothing else then
     Result result = command.run(common, stop);
     result.json["stopped"] = result.stopped.has_value();
     return envelope(command.app->get_name(), common, sim::thread_count(common.threads), result);

@@ -125,6 +125,20 @@ TEST_SUITE("c interface") {
     CHECK(answer["k"].get<int>() > 0);
     detp_text_free(&json);
     CHECK(json == nullptr);
+    const std::vector<std::pair<std::vector<const char*>, const char*>> questions{
+        {{"run", "@cornell", "--rays", "1000"}, "hits"},
+        {{"run", "@cornell", "--target-noise", "50%"}, "noise"},
+        {{"accuracy", "@cornell", "--target-noise", "20%", "--effort", "quick"}, "answer"},
+        {{"choose", "@cornell", "--rays", "1000"}, "choice"},
+        {{"scene", "@cornell", "--rays", "1000"}, "effects"},
+        {{"validate", "--experiments", "lines"}, "claims"}};
+    for (const auto& [question, key] : questions) {
+      CAPTURE(question[0]);
+      const detp_status status = detp_ask(question.data(), question.size(), nullptr, nullptr, &json, &error);
+      REQUIRE_MESSAGE(status == DETP_OK, error.text);
+      CHECK_MESSAGE(nlohmann::json::parse(json).contains(key), json);
+      detp_text_free(&json);
+    }
     const char* const bad[] = {"model", "--sample", "1000"};
     CHECK(detp_ask(bad, std::size(bad), nullptr, nullptr, &json, &error) == DETP_INVALID);
     CHECK(std::string(error.text).find("--sample") != std::string::npos);
