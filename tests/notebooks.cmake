@@ -1,11 +1,12 @@
 # Executes the notebooks of notebooks-data, and checks that they draw the pictures that notebooks-data/figures has.
 # Also makes small tables by the scripts there, and checks that they have the columns of the kept ones.
-# Called with -D SOURCE=<top of the project> -D BUILD=<folder for what is drawn> -D DETP=<the command>.
+# Called with -D SOURCE=<top of the project> -D BUILD=<folder for what is drawn> -D DETP=<the command>
+# -D LIBRARY=<libdetp.so>.
 
 cmake_policy(VERSION 3.25)
 find_program(python python3 PATHS /usr/bin NO_DEFAULT_PATH)  # Debian's, which its packages are for
 if(python)
-  execute_process(COMMAND ${python} -c "import ipykernel, matplotlib, nbconvert, pandas" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
+  execute_process(COMMAND ${python} -c "import cffi, ipykernel, matplotlib, nbconvert, pandas" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
 endif()
 if(NOT python OR missing)
   message("skipped: Debian's packages of .ci/notebook-packages.txt are not installed")
@@ -15,6 +16,14 @@ endif()
 set(drawn ${BUILD}/figures)
 file(REMOVE_RECURSE ${drawn})
 file(MAKE_DIRECTORY ${drawn})
+# The Python package, which a notebook uses.
+set(package ${BUILD}/notebooks-package)
+file(COPY ${SOURCE}/validate/python/detp DESTINATION ${package})
+execute_process(COMMAND ${python} ${SOURCE}/validate/python/declarations.py ${SOURCE}/validate/c/detp.h ${package}/detp
+                COMMAND_ERROR_IS_FATAL ANY)
+set(ENV{PYTHONPATH} ${package})
+set(ENV{DETP_LIBRARY} ${LIBRARY})
+
 file(GLOB notebooks ${SOURCE}/notebooks-data/*.ipynb)
 foreach(notebook ${notebooks})
   execute_process(COMMAND ${CMAKE_COMMAND} -E env DETP_FIGURES=${drawn} ${python} -m nbconvert --to notebook --execute --stdout ${notebook}
@@ -30,7 +39,7 @@ if(failed)
   message(SEND_ERROR "${errors}")
 endif()
 
-foreach(table formulas losses maps)
+foreach(table losses maps)
   execute_process(COMMAND ${python} ${SOURCE}/notebooks-data/${table}.py ${DETP} --quick
                   RESULT_VARIABLE failed OUTPUT_VARIABLE made ERROR_VARIABLE errors)
   string(REGEX MATCH "^[^\n]*" columns "${made}")
