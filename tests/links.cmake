@@ -1,7 +1,17 @@
 # Checks that relative links in *.md files, and references in comments (folder/page.md or folder/page.md, "Heading"),
-# lead to existing files and headings. Called with -D SOURCE=<top of the project>.
+# lead to existing files and headings, and that CITATION.cff and CHANGELOG.md name the project's version. Called with -D SOURCE=<top of the project>.
 
 cmake_policy(VERSION 3.25)
+file(STRINGS ${SOURCE}/CMakeLists.txt version REGEX "^project\\(detp VERSION ")
+string(REGEX MATCH "[0-9]+\\.[0-9]+\\.[0-9]+" version "${version}")
+foreach(file CITATION.cff CHANGELOG.md)
+  file(READ ${SOURCE}/${file} text)
+  string(FIND "${text}" "version: ${version}\n" cited)
+  string(FIND "${text}" "version ${version}" named)
+  if(cited EQUAL -1 AND named EQUAL -1)
+    message(SEND_ERROR "${file} does not name the version ${version}")
+  endif()
+endforeach()
 file(GLOB pages ${SOURCE}/*.md)
 set(sources)
 foreach(part model sim validate tests notebooks-data)
