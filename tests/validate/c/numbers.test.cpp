@@ -132,11 +132,12 @@ TEST_SUITE("c interface") {
         {{"choose", "@cornell", "--rays", "1000"}, "choice"},
         {{"scene", "@cornell", "--rays", "1000"}, "effects"},
         {{"validate", "--experiments", "lines"}, "claims"}};
-    for (const auto& [question, key] : questions) {
+    for (const auto& one : questions) {
+      const std::vector<const char*>& question = one.first;
       CAPTURE(question[0]);
       const detp_status status = detp_ask(question.data(), question.size(), nullptr, nullptr, &json, &error);
       REQUIRE_MESSAGE(status == DETP_OK, error.text);
-      CHECK_MESSAGE(nlohmann::json::parse(json).contains(key), json);
+      CHECK_MESSAGE(nlohmann::json::parse(json).contains(one.second), json);
       detp_text_free(&json);
     }
     const char* const bad[] = {"model", "--sample", "1000"};

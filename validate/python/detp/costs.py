@@ -31,7 +31,10 @@ class Costs:
 
     @staticmethod
     def measured(seconds: float = 17, store: bool = False, progress: Optional[Progress] = None) -> Costs:
-        """Measured now, in about so many seconds. store: for `stored`."""
+        """Measured now, in about so many seconds.
+
+        :param store: for `stored`.
+        """
         handle = owned("detp_costs")
         long = LongCall(progress)
         long.run(lib.detp_costs_measured, seconds, store, long.callback, ffi.NULL, handle)

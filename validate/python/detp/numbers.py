@@ -47,8 +47,11 @@ def choose(*, rays: float, samples: float, disc_radius: float, scene_side: float
            costs: Optional[Costs] = None, threads: int = 0) -> Choice:
     """The fastest technique for so many rays and samples.
 
-    disc_radius, scene_side: in one unit; the side of the cube. dimension: 3: samples fill the cube; 2: they lie on its
-    faces. costs: default: the built-in ones. threads: at most; 0: all cores.
+    :param disc_radius: in the unit of scene_side.
+    :param scene_side: of the cube.
+    :param dimension: 3: samples fill the cube; 2: they lie on its faces.
+    :param costs: default: the built-in ones.
+    :param threads: at most; 0: all cores.
 
     Raises ValueError for numbers out of range.
     """
@@ -87,8 +90,10 @@ def predict(technique: str, *, rays: float, samples: float, disc_radius: float, 
             published: bool = False, costs: Optional[Costs] = None, threads: int = 1, **parameters: Any) -> Prediction:
     """Closed forms of a technique: `predict("sphere-cache", ratio=0.65, rays=1e5, …)`.
 
-    The workload as for `choose`. parameters: of the technique; those that are not given become the best ones.
-    published: the formulas of the paper (sphere-cache, with a ratio; k is theirs unless spheres are given).
+    The workload as for `choose`.
+
+    :param parameters: of the technique; those that are not given become the best ones.
+    :param published: the formulas of the paper (sphere-cache, with a ratio; k is theirs unless spheres are given).
 
     Raises ValueError for numbers out of range and for techniques without a closed form.
     """

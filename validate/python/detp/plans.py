@@ -36,13 +36,13 @@ def plan(discs: Discs, rays: Rays, *, costs: Optional[Costs] = None, expected_ra
          progress: Optional[Progress] = None) -> Plan:
     """Chooses technique and parameters by a pilot, and builds the index.
 
-    rays: some or all of those that will be searched.
-    costs: default: the built-in ones, of another machine.
-    expected_rays: number of rays of each search; 0: as many as are shown.
-    farthest: most distance of a ray's origin from the centre of the discs; 0: 1000 times their extent.
-    front_facing: only rays that arrive at a disc's front hit.
-    threads: most threads, for planning and for each search; 0: all cores.
-    once: the plan is executed once or twice, so that planning must be short.
+    :param rays: some or all of those that will be searched.
+    :param costs: default: the built-in ones, of another machine.
+    :param expected_rays: number of rays of each search; 0: as many as are shown.
+    :param farthest: most distance of a ray's origin from the centre of the discs; 0: 1000 times their extent.
+    :param front_facing: only rays that arrive at a disc's front hit.
+    :param threads: most threads, for planning and for each search; 0: all cores.
+    :param once: the plan is executed once or twice, so that planning must be short.
 
     Raises ValueError, with the number of the bad element, for malformed rays or discs; MemoryError; what `progress` raises.
     """
@@ -86,8 +86,10 @@ class Plan:
 
         The same rays and discs give the same bytes, with any technique and any number of threads.
 
-        pairs: also which ray crosses which disc. standard_error: also errors and bounds. counts: also numbers of
-        operations. threads: 0: those of the plan.
+        :param pairs: also which ray crosses which disc.
+        :param standard_error: also errors and bounds.
+        :param counts: also numbers of operations, which takes some time.
+        :param threads: 0: those of the plan.
 
         Raises as `plan` does.
         """
@@ -113,8 +115,10 @@ class Plan:
                      progress: Optional[Progress] = None) -> Estimate:
         """Searches batches of rays until the noise is below the target.
 
-        noise: relative to the root mean square irradiance, over the discs by area: 0.05.
-        confidence: that the noise of this run is smaller.
+        :param next_rays: makes the next rays.
+        :param noise: relative to the root mean square irradiance, over the discs by area: 0.05.
+        :param confidence: that the noise of this run is smaller.
+        :param most_rays: ends the search without the target.
 
         Raises ValueError for targets out of range and for malformed rays; what `next_rays` and `progress` raise.
         """

@@ -11,12 +11,12 @@ from ._library import make
 class Rays:
     """Rays in arrays, which are not copied. They may be changed between calls.
 
-    origins: (n, 3), lengths.
-    directions: (n, 3), of any length except 0.
-    lengths: how far each ray reaches from its origin, (n,) or one number; without: lines without ends, both ways.
-    powers: (n,) or one number, in any unit; without: 1.
-    photons: (n,) whole numbers, ascending: the photon of each ray. Rays of one photon count as one in standard errors;
-        without: each ray is a photon of its own.
+    :param origins: (n, 3), lengths.
+    :param directions: (n, 3), of any length except 0.
+    :param lengths: how far each ray reaches from its origin, (n,) or one number; without: lines without ends, both ways.
+    :param powers: (n,) or one number, in any unit; without: 1.
+    :param photons: (n,) whole numbers, ascending: the photon of each ray. Rays of one photon count as one in standard
+        errors; without: each ray is a photon of its own.
 
     Raises ValueError for arrays of other shapes, TypeError for what are no numbers.
     """
@@ -48,9 +48,9 @@ class Rays:
 class Discs:
     """Discs in arrays, which are not copied; a plan keeps 56 bytes a disc.
 
-    centres: (n, 3), lengths.
-    normals: (n, 3), of any length except 0.
-    radii: > 0; (n,) or one number.
+    :param centres: (n, 3), lengths.
+    :param normals: (n, 3), of any length except 0.
+    :param radii: > 0; (n,) or one number.
 
     Raises as Rays does.
     """
