@@ -18,6 +18,7 @@ html_show_sphinx = False
 html_show_sourcelink = False
 html_copy_source = False
 autodoc_typehints = "description"
+autodoc_typehints_description_target = "documented"
 autodoc_member_order = "bysource"
 default_role = "code"
 suppress_warnings = ["myst.header"]  # pages of the repository may begin below the first level

@@ -36,6 +36,7 @@ def plan(discs: Discs, rays: Rays, *, costs: Optional[Costs] = None, expected_ra
          progress: Optional[Progress] = None) -> Plan:
     """Chooses technique and parameters by a pilot, and builds the index.
 
+    :param discs: of all searches; copied.
     :param rays: some or all of those that will be searched.
     :param costs: default: the built-in ones, of another machine.
     :param expected_rays: number of rays of each search; 0: as many as are shown.
@@ -43,6 +44,7 @@ def plan(discs: Discs, rays: Rays, *, costs: Optional[Costs] = None, expected_ra
     :param front_facing: only rays that arrive at a disc's front hit.
     :param threads: most threads, for planning and for each search; 0: all cores.
     :param once: the plan is executed once or twice, so that planning must be short.
+    :param progress: called with what is done, and with the share of the work.
 
     Raises ValueError, with the number of the bad element, for malformed rays or discs; MemoryError; what `progress` raises.
     """
@@ -90,6 +92,7 @@ class Plan:
         :param standard_error: also errors and bounds.
         :param counts: also numbers of operations, which takes some time.
         :param threads: 0: those of the plan.
+        :param progress: as for `plan`.
 
         Raises as `plan` does.
         """
