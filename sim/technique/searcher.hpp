@@ -49,7 +49,7 @@ class Searcher {
   /// Counts and seconds are those of the search alone. Throws as run does, and std::invalid_argument if a ray starts
   /// too far away.
   const Outcome& search(const PathRays& rays, SearchScratch& scratch, RunOptions options = {}) const;
-  /// The same for views, which are read in pieces of 2¹⁷ rays, 8 MiB. (The plain engine: default_block. ray-map: all rays.)
+  /// The same for views, which are read in pieces of 2¹⁸ rays, 16 MiB. (The plain engine: default_block. ray-map: all rays.)
   const Outcome& search(const RaysView& rays, SearchScratch& scratch, const RunOptions& options = {}) const;
 
   /// Counts, time and memory of building the index.

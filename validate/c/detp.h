@@ -8,7 +8,7 @@
  * on different handles may run on different threads at once; a plan may be executed by many threads, each with its own scratch.
  *
  * The caller owns all arrays. Rays and discs may be floats or doubles, with any stride; they must stay as they are during the call, which
- * reads rays in pieces (at most 8 MiB are copied at a time; 16 MiB while a plan is made); a plan keeps 56 bytes a disc. A handle belongs to the caller, too: its free function takes the
+ * reads rays in pieces: at most 16 MiB are copied at a time; a plan keeps 56 bytes a disc. A handle belongs to the caller, too: its free function takes the
  * address of the variable, and sets it to null, so that freeing it twice does nothing, and using it afterwards is an error, not a crash. Null handles are refused. Functions that make a handle
  * overwrite the variable.
  *

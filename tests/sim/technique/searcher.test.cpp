@@ -225,7 +225,7 @@ TEST_SUITE("searcher") {
       }
     const Searcher searcher(discs, all[0], 10.0);
     CHECK(searcher.search(view, scratch).total_hits > 0);
-    CHECK(scratch.rays.size() <= 1U << 17);
+    CHECK(scratch.rays.size() <= 1U << 18);
     double last = 0;
     std::stop_source stop;
     const Outcome& partial = searcher.search(view, scratch, {.stop = stop.get_token(), .progress = [&](double share) {
