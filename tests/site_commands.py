@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 
@@ -24,23 +25,25 @@ def commands(page: Path) -> "list[tuple[str, list[str]]]":
     return found
 
 
+def complaint(environment: "dict[str, str]", page: str, command: str, quoted: "list[str]") -> str:
+    with tempfile.TemporaryDirectory() as place:
+        ran = subprocess.run(command, shell=True, cwd=place, env=environment, capture_output=True, text=True)
+    begins = {line.split()[0] for line in ran.stdout.splitlines() if line.strip()}
+    missing = [line for line in quoted if line.split()[0] not in begins]
+    if ran.returncode == 0 and not missing:
+        return ""
+    return f"{page}: {command}: status {ran.returncode}, not printed: {missing}\n{ran.stderr}"
+
+
 def main() -> int:
     folder, *pages = map(Path, sys.argv[1:])
     environment = {**os.environ, "PATH": f"{folder.resolve()}:{os.environ['PATH']}"}
-    wrong = 0
-    count = 0
-    for page in map(Path.resolve, pages):
-        for command, quoted in commands(page):
-            count += 1
-            with tempfile.TemporaryDirectory() as place:
-                ran = subprocess.run(command, shell=True, cwd=place, env=environment, capture_output=True, text=True)
-            begins = {line.split()[0] for line in ran.stdout.splitlines() if line.strip()}
-            missing = [line for line in quoted if line.split()[0] not in begins]
-            if ran.returncode != 0 or missing:
-                print(f"{page.name}: {command}: status {ran.returncode}, not printed: {missing}\n{ran.stderr}", file=sys.stderr)
-                wrong += 1
-    print(f"{count} commands, {wrong} wrong")
-    return 1 if wrong or not count else 0
+    all_commands = [(page.name, *one) for page in pages for one in commands(page.resolve())]
+    with ThreadPoolExecutor(2) as workers:
+        complaints = [text for text in workers.map(lambda one: complaint(environment, *one), all_commands) if text]
+    print("\n".join(complaints), file=sys.stderr)
+    print(f"{len(all_commands)} commands, {len(complaints)} wrong")
+    return 1 if complaints or not all_commands else 0
 
 
 sys.exit(main())

@@ -79,6 +79,15 @@ std::uint64_t PhotonSource::block_end(std::uint64_t first, std::uint64_t most) c
   return starts_[group] + static_cast<std::uint64_t>(std::ranges::upper_bound(photons, cut) - photons.begin());
 }
 
+std::uint64_t PhotonSource::first_ray_of(std::uint64_t photon) const {
+  const std::uint64_t group = photon / group_size;
+  if (photon >= emitted_ || group + 1 >= starts_.size()) return count_;
+  if (photon % group_size == 0) return std::min(count_, starts_[group]);
+  const std::vector<std::uint64_t> photons = trace_group(group, {}).photons;
+  const auto before = static_cast<std::uint64_t>(std::ranges::lower_bound(photons, photon) - photons.begin());
+  return std::min(count_, starts_[group] + before);
+}
+
 void PhotonSource::read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const {
   std::vector<std::uint64_t> photons;
   read_numbered(first, block, photons, stop);

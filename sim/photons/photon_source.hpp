@@ -26,6 +26,7 @@ class PhotonSource final : public RaySource {
   [[nodiscard]] bool numbered() const override { return true; }
   [[nodiscard]] std::uint64_t photons() const override { return emitted_; }
   [[nodiscard]] std::uint64_t block_end(std::uint64_t first, std::uint64_t most) const override;
+  [[nodiscard]] std::uint64_t first_ray_of(std::uint64_t photon) const override;
   void read_numbered(std::uint64_t first, std::span<Ray> block, std::vector<std::uint64_t>& photons,
                      const std::stop_token& stop = {}) const override;
   [[nodiscard]] double farthest_from(const glm::dvec3& point) const override;

@@ -33,6 +33,8 @@ class RaySource {
   [[nodiscard]] virtual std::uint64_t block_end(std::uint64_t first, std::uint64_t most) const {
     return std::min(size(), first + most);
   }
+  /// Number of the first ray of this photon or a later one; size() if there is none.
+  [[nodiscard]] virtual std::uint64_t first_ray_of(std::uint64_t photon) const { return std::min(size(), photon); }
   /// Reads rays with their photons' numbers, which `photons` gets if the source has them. Throws as `read`.
   virtual void read_numbered(std::uint64_t first, std::span<Ray> block, std::vector<std::uint64_t>& photons,
                              const std::stop_token& stop = {}) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <stdexcept>
 
 #include "problem.hpp"
 
@@ -12,19 +13,26 @@ double sum_of(const glm::dvec3& by_axis) { return (by_axis.x + by_axis.y) + by_a
 
 }  // namespace
 
-Totals::Totals(std::size_t discs, Memory* memory) : discs_(discs, memory), photon_sums_(memory), levels_(memory) {}
+Totals::Totals(std::size_t discs, Memory* memory)
+    : discs_(discs, memory), photon_sums_(memory), levels_(memory), left_(memory) {}
 
 Totals::Totals(const Totals& other, Memory* memory)
     : discs_(other.discs_, memory),
       photon_sums_(other.photon_sums_, memory),
       levels_(memory),
+      left_(memory),
       keeps_errors_(other.keeps_errors_),
+      origin_(other.origin_),
       block_(other.block_),
       rays_(other.rays_),
       photons_(other.photons_),
       largest_power_(other.largest_power_) {
-  for (const Level& level : other.levels_)
-    levels_.push_back({std::pmr::vector<double>(level.power, memory), std::pmr::vector<double>(level.squares, memory)});
+  const auto copy = [&](const std::pmr::vector<Level>& from, std::pmr::vector<Level>& to) {
+    for (const Level& level : from)
+      to.push_back({std::pmr::vector<double>(level.power, memory), std::pmr::vector<double>(level.squares, memory)});
+  };
+  copy(other.levels_, levels_);
+  copy(other.left_, left_);
 }
 
 void Totals::resize(std::size_t discs) {
@@ -39,14 +47,28 @@ void Totals::keep_errors() {
 
 void Totals::make_levels(std::size_t discs, std::uint64_t last_block) {
   std::pmr::memory_resource* const memory = levels_.get_allocator().resource();
-  while (levels_.size() < static_cast<std::size_t>(std::bit_width(last_block)))
-    levels_.push_back(
-        {std::pmr::vector<double>(discs, memory), std::pmr::vector<double>(keeps_errors_ ? discs : 0, memory)});
+  const auto count = static_cast<std::size_t>(std::bit_width(last_block));
+  const auto add = [&](std::pmr::vector<Level>& to, std::size_t level_discs) {
+    to.push_back({std::pmr::vector<double>(level_discs, memory),
+                  std::pmr::vector<double>(keeps_errors_ ? level_discs : 0, memory)});
+  };
+  while (levels_.size() < count) add(levels_, discs);
+  for (std::uint64_t start = origin_, level = 0; start != 0 && left_.size() < count; ++level) {
+    const bool used = (start >> level & 1) != 0;  // by a subtree whose left neighbour is not here
+    if (level == left_.size()) add(left_, used ? discs : 0);
+    if (used) start += std::uint64_t{1} << level;
+  }
 }
 
 /// Adds T(level, i), which begins at block `number`, to the counter.
 void Totals::add_subtree(Sums sums, std::size_t disc, std::uint64_t number, std::size_t level, double sum) {
-  for (; (number >> level & 1) != 0; ++level) sum = (levels_[level].*sums)[disc] + sum;
+  for (; (number >> level & 1) != 0; ++level) {
+    if (((number >> level) - 1) << level < origin_) {
+      (left_[level].*sums)[disc] = sum;
+      return;
+    }
+    sum = (levels_[level].*sums)[disc] + sum;
+  }
   (levels_[level].*sums)[disc] = sum;
 }
 
@@ -77,6 +99,77 @@ void Totals::fold(std::size_t disc, std::uint64_t from, std::uint64_t to, DiscTo
   photons->squares = glm::dvec3{0.0};
 }
 
+void Totals::begin_at(std::uint64_t block) {
+  origin_ = block_ = block;
+  rays_ = block << log2_photons_in_block;  // if rays are photons
+}
+
+void Totals::complete(std::uint64_t block) {
+  make_levels(discs_.size(), block);
+  for (std::size_t disc = 0; disc < discs_.size(); ++disc)
+    fold(disc, block_, block, discs_[disc], keeps_errors_ ? &photon_sums_[disc] : nullptr);
+  begin_block(std::max(block, block_));
+}
+
+std::vector<Totals::Subtree> Totals::subtrees() const {
+  std::vector<Subtree> found;
+  std::uint64_t start = origin_;
+  while (start != 0 && start + (start & -start) <= block_) {
+    found.push_back({start, static_cast<std::size_t>(std::countr_zero(start)), true});
+    start += start & -start;
+  }
+  for (std::size_t level = static_cast<std::size_t>(std::bit_width(block_)); level-- > 0;)
+    if ((block_ >> level & 1) != 0 && ((block_ >> level) - 1) << level >= start)
+      found.push_back({((block_ >> level) - 1) << level, level, false});
+  return found;
+}
+
+Totals::Shape Totals::shape() const {
+  return {discs_.size(), origin_, block_, rays_, photons_, keeps_errors_ ? std::uint64_t{1} : 0, largest_power_};
+}
+
+Totals Totals::of_shape(const Shape& shape) {
+  Totals made;
+  made.origin_ = shape.origin;
+  made.block_ = shape.block;
+  made.rays_ = shape.rays;
+  made.photons_ = shape.photons;
+  made.largest_power_ = shape.largest_power;
+  made.keeps_errors_ = shape.errors != 0;
+  made.resize(shape.discs);
+  made.make_levels(shape.discs, shape.block);
+  return made;
+}
+
+void Totals::append(const Totals& later) {
+  if (later.origin_ != block_ || later.discs_.size() != discs_.size() || later.keeps_errors_ != keeps_errors_)
+    throw std::invalid_argument("sums of photons do not follow one another");
+  make_levels(discs_.size(), later.block_);
+  for (const Subtree& subtree : later.subtrees()) {
+    const Level& from = (subtree.left ? later.left_ : later.levels_)[subtree.level];
+    for (std::size_t disc = 0; disc < discs_.size(); ++disc)
+      add_subtree(&Level::power, disc, subtree.start, subtree.level, from.power[disc]);
+    for (std::size_t disc = 0; disc < from.squares.size(); ++disc)
+      add_subtree(&Level::squares, disc, subtree.start, subtree.level, from.squares[disc]);
+  }
+  for (std::size_t disc = 0; disc < discs_.size(); ++disc) {
+    discs_[disc].hits += later.discs_[disc].hits;
+    discs_[disc].power = later.discs_[disc].power;
+  }
+  for (std::size_t disc = 0; disc < photon_sums_.size(); ++disc) {
+    PhotonSums& sums = photon_sums_[disc];
+    const PhotonSums& more = later.photon_sums_[disc];
+    sums.close();
+    sums.squares = more.squares;
+    sums.largest = std::max(sums.largest, more.largest);
+    sums.add_photons(more.photons);
+  }
+  block_ = later.block_;
+  rays_ = later.rays_;
+  photons_ = std::max(photons_, later.photons_);
+  largest_power_ = std::max(largest_power_, later.largest_power_);
+}
+
 double Totals::power(std::size_t disc, const DiscTotals& sums) const {
   return total(&Level::power, disc, sum_of(sums.power));
 }
@@ -86,8 +179,8 @@ double Totals::squares(std::size_t disc, const PhotonSums& sums) const {
 }
 
 void Totals::add_rays(const Problem& problem) {
-  photons_ = problem.numbered() ? std::max(photons_, problem.photons_to()) : photons_ + problem.rays().size();
   rays_ += problem.rays().size();
+  photons_ = std::max(photons_, problem.numbered() ? problem.photons_to() : rays_);
   largest_power_ = std::max(largest_power_, problem.largest_power());
 }
 

@@ -30,7 +30,8 @@ struct DiscTotals {
 /// techniques, threads, or how rays are cut into searches. Within a block of 2¹⁸ photons, powers are added in ray order,
 /// in three sums by dominant axis; the block's power is (x + y) + z. Squares of photons' powers likewise (PhotonSums).
 /// Blocks are added pairwise, as the leaves of a binary tree: T(0, b) is block b, T(l + 1, i) = T(l, 2i) + T(l, 2i + 1), and
-/// a block without photons counts as 0. So any aligned range of blocks can be summed apart, for instance by another process.
+/// a block without photons counts as 0. So any range of blocks can be summed apart, for instance by another process: as the largest
+/// subtrees that it contains.
 ///
 /// A complete block goes into `levels`, which work like the digits of a binary counter: level l holds the latest T(l, ·)
 /// that is not part of a larger subtree yet. There are none as long as all photons are in the first block.
@@ -65,6 +66,35 @@ class Totals {
   /// All discs have been folded up to this block.
   void begin_block(std::uint64_t block) { block_ = block; }
 
+  /// Sums of blocks from this one on, a part of all: blocks before it are summed elsewhere. To be called before the first ray.
+  void begin_at(std::uint64_t block);
+  /// The first block that is summed here.
+  [[nodiscard]] std::uint64_t origin() const { return origin_; }
+  /// There are no more photons before this block.
+  void complete(std::uint64_t block);
+  /// Adds the part that begins at the block under way, of which there must be no photons here. The bits are those of one sum.
+  /// Throws std::invalid_argument for parts that do not follow one another.
+  void append(const Totals& later);
+
+  /// What a part has, to be sent elsewhere.
+  struct Shape {
+    std::uint64_t discs = 0, origin = 0, block = 0, rays = 0, photons = 0, errors = 0;
+    double largest_power = 0;
+  };
+  [[nodiscard]] Shape shape() const;
+  /// With arrays of the right sizes, to be filled by for_each_array.
+  [[nodiscard]] static Totals of_shape(const Shape& shape);
+  /// Calls visit(array) for all arrays that a part has, always in the same order.
+  template <class Visit>
+  void for_each_array(const Visit& visit) {
+    visit(discs_);
+    visit(photon_sums_);
+    for (const Subtree& subtree : subtrees()) {
+      visit(level_of(subtree).power);
+      visit(level_of(subtree).squares);
+    }
+  }
+
   /// Power of all rays that hit the disc, `sums` being those of the block under way.
   [[nodiscard]] double power(std::size_t disc, const DiscTotals& sums) const;
   /// Sum of the squared powers of the photons that hit the disc; `sums` as above. No photon may be under way.
@@ -85,6 +115,16 @@ class Totals {
     std::pmr::vector<double> squares;  ///< empty unless errors are kept
   };
   using Sums = std::pmr::vector<double> Level::*;
+  /// A complete T(level, start / 2^level). Its left neighbour is not summed here: it is in left_, else in levels_.
+  struct Subtree {
+    std::uint64_t start;
+    std::size_t level;
+    bool left;
+  };
+
+  [[nodiscard]] Level& level_of(const Subtree& subtree) { return (subtree.left ? left_ : levels_)[subtree.level]; }
+  /// The largest complete subtrees of the blocks from origin_ to block_ - 1, in their order.
+  [[nodiscard]] std::vector<Subtree> subtrees() const;
 
   void add_subtree(Sums sums, std::size_t disc, std::uint64_t number, std::size_t level, double sum);
   void add_blocks(Sums sums, std::size_t disc, std::uint64_t from, std::uint64_t to, double sum_of_first);
@@ -94,7 +134,9 @@ class Totals {
       discs_;  // 32 bytes each: in an aligned array, as in a Scratch, a hit touches one cache line
   std::pmr::vector<PhotonSums> photon_sums_;
   std::pmr::vector<Level> levels_;
+  std::pmr::vector<Level> left_;  ///< subtrees whose left neighbour begins before origin_, by level
   bool keeps_errors_ = false;
+  std::uint64_t origin_ = 0;
   std::uint64_t block_ = 0;
   std::uint64_t rays_ = 0;
   std::uint64_t photons_ = 0;

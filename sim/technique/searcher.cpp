@@ -77,11 +77,11 @@ void Searcher::search_pieces(const RaysView& rays, std::size_t piece, SearchScra
   options.memory = &scratch.memory;
   scratch.memory.begin();
   clear(scratch.outcome);
-  SuccessiveSearch pieces(*index_, problem_, options, rays.count, static_cast<double>(piece * sizeof(Ray)),
+  SuccessiveSearch pieces(*index_, problem_, options, 0, rays.count, static_cast<double>(piece * sizeof(Ray)),
                           scratch.outcome);
   double reading = 0;
-  while (pieces.done() < rays.count && !pieces.stopped()) {
-    const std::size_t first = pieces.done();
+  while (pieces.next() < rays.count && !pieces.stopped()) {
+    const std::size_t first = pieces.next();
     const std::size_t count = end_of_piece(rays, first, piece) - first;
     Stopwatch watch;
     scratch.rays.resize(count);

@@ -26,19 +26,23 @@ class StreamedSearch {
  public:
   StreamedSearch(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
                  const StreamOptions& options)
-      : source_(source), options_(options), run_(options.run), problem_(problem_of(discs)) {
+      : source_(source),
+        options_(options),
+        run_(options.run),
+        last_(options.last.value_or(source.size())),
+        problem_(problem_of(discs)) {
     const std::size_t block = options.block > 0 ? options.block : default_block(discs.size());
-    streamed_.block = static_cast<std::size_t>(std::min<std::uint64_t>(block, source.size()));
+    streamed_.block = static_cast<std::size_t>(std::min<std::uint64_t>(block, last_ - options.first));
     predict_bytes();
     try {
       index_ = prepare(problem_, candidate, run_);
       const Built& built = index_->built();
       streamed_.outcome.seconds = built.seconds;
-      if (run_.count) streamed_.outcome.counts = built.counts;
+      if (run_.count && options.count_building) streamed_.outcome.counts = built.counts;
       streamed_.bytes = own_bytes_ + built.bytes;
     } catch (const Stopped&) {
       streamed_.outcome = unsearched_outcome(problem_, run_);
-      streamed_.outcome.progress.of = source_.size();
+      streamed_.outcome.progress.of = last_ - options.first;
     }
     run_.memory = &scratch_;
   }
@@ -50,8 +54,8 @@ class StreamedSearch {
 
  private:
   Problem problem_of(std::span<const Disc> discs) {
-    if (run_.totals != nullptr) throw std::invalid_argument("a stream has its own totals; options must have none");
-    if (source_.size() == 0) throw std::invalid_argument("there must be at least one ray");
+    if (options_.first >= last_ || last_ > source_.size())
+      throw std::invalid_argument("there must be at least one ray");
     Stopwatch watch;
     Problem problem = make_problem_without_rays(discs, source_.farthest_from(enclosing_sphere(discs, run_.stop).centre),
                                                 options_.front_facing, run_.stop);
@@ -72,16 +76,17 @@ class StreamedSearch {
 
   void search_all() {
     Outcome& outcome = streamed_.outcome;
-    SuccessiveSearch search(*index_, problem_, run_, source_.size(), own_bytes_, outcome);
+    const auto all = static_cast<double>(last_ - options_.first);
+    SuccessiveSearch search(*index_, problem_, run_, options_.first, last_, own_bytes_, outcome);
     std::vector<Ray> block;
     std::vector<std::uint64_t> photons;  // their numbers; empty if rays have none
     try {
-      while (search.done() < source_.size() && !search.stopped()) {
-        const std::uint64_t first = search.done();
-        if (options_.progress) options_.progress(static_cast<double>(first) / static_cast<double>(source_.size()));
+      while (search.next() < last_ && !search.stopped()) {
+        const std::uint64_t first = search.next();
+        if (options_.progress) options_.progress(static_cast<double>(first - options_.first) / all);
         StopCheck(run_.stop, "reading rays").now();
         Stopwatch watch;
-        block.resize(static_cast<std::size_t>(source_.block_end(first, streamed_.block) - first));
+        block.resize(static_cast<std::size_t>(std::min(last_, source_.block_end(first, streamed_.block)) - first));
         on_threads(thread_count(run_.threads), [&] { source_.read_numbered(first, block, photons, run_.stop); });
         streamed_.read_seconds += watch.lap();
         scratch_.begin();
@@ -98,6 +103,7 @@ class StreamedSearch {
   const RaySource& source_;
   const StreamOptions& options_;
   RunOptions run_;
+  std::uint64_t last_;
   StreamedOutcome streamed_;
   Problem problem_;
   std::unique_ptr<Index> index_;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "detp/sim/rays/ray_source.hpp"
 #include "technique.hpp"
@@ -9,7 +11,11 @@
 namespace detp::sim {
 
 struct StreamOptions {
-  RunOptions run;                                  ///< run.totals must be null
+  RunOptions
+      run;  ///< with run.totals, a part of the rays is added to these; then the outcome has no hits and irradiance
+  std::uint64_t first = 0;                         ///< number of the first ray that is searched
+  std::optional<std::uint64_t> last = {};          ///< one more than that of the last; default: all rays of the source
+  bool count_building = true;                      ///< the outcome's counts include those of building the index
   bool front_facing = false;                       ///< count only rays that arrive at a disc's front
   std::size_t block = 0;                           ///< rays in memory at a time; 0: default_block
   std::function<void(double done)> progress = {};  ///< called before each block, 0 <= done < 1
@@ -32,7 +38,7 @@ struct StreamedOutcome {
 [[nodiscard]] std::size_t default_block(std::size_t discs);
 
 /// Runs a candidate over any number of rays. The result is that of `run`, bit for bit (hits, irradiance, pairs), for
-/// any block size. The index over the discs is built once.
+/// any block size. The index over the discs is built once. `first` and `last` select a part of the rays.
 ///
 /// A stop request also ends the making of rays. The outcome then has `stopped` set, covers only the first rays, and has
 /// no pairs. Throws as make_problem and run do. There may be more than 2³² rays, unless pairs are requested. Throws

@@ -14,19 +14,21 @@
 
 namespace detp::sim {
 
-SuccessiveSearch::SuccessiveSearch(const Index& index, Problem problem, const RunOptions& options, std::uint64_t rays,
-                                   double kept_bytes, Outcome& sum)
+SuccessiveSearch::SuccessiveSearch(const Index& index, Problem problem, const RunOptions& options, std::uint64_t first,
+                                   std::uint64_t last, double kept_bytes, Outcome& sum)
     : index_(index),
       problem_(std::move(problem)),
       options_(options),
       run_(options),
       own_(0, options.memory),
-      rays_(rays),
+      first_(first),
+      last_(last),
+      next_(first),
       kept_bytes_(kept_bytes),
       sum_(sum) {
   check_options(options, problem_);
-  if (options.pairs && rays >= UINT32_MAX)
-    throw std::length_error(fmt::format("{} rays are too many for pairs; the maximum is {}", rays, UINT32_MAX - 1));
+  if (options.pairs && last >= UINT32_MAX)
+    throw std::length_error(fmt::format("{} rays are too many for pairs; the maximum is {}", last, UINT32_MAX - 1));
   if (options.totals == nullptr) {
     if (options.standard_error) own_.keep_errors();
     own_.resize(problem_.discs().size());
@@ -35,24 +37,24 @@ SuccessiveSearch::SuccessiveSearch(const Index& index, Problem problem, const Ru
   run_.standard_error = false;  // of a piece
   if (options.progress)
     run_.progress = [this](double share) {
-      const double done = static_cast<double>(done_) + share * static_cast<double>(problem_.rays().size());
-      options_.progress(done / static_cast<double>(rays_));
+      const double done = static_cast<double>(next_ - first_) + share * static_cast<double>(problem_.rays().size());
+      options_.progress(done / static_cast<double>(last_ - first_));
     };
-  sum_.progress.of = rays;
+  sum_.progress.of = last - first;
   sum_.bytes = kept_bytes;
 }
 
 void SuccessiveSearch::add(const PathRays& rays) {
   Stopwatch watch;
   if (!rays.photons.empty())
-    require_rising(done_, rays.photons.front(), std::exchange(last_photon_, rays.photons.back()));
-  set_rays(problem_, rays, options_.threads, done_);
+    require_rising(next_, rays.photons.front(), std::exchange(last_photon_, rays.photons.back()));
+  set_rays(problem_, rays, options_.threads, next_);
   sum_.seconds.prepare += watch.lap();
   sim::search(index_, problem_, run_, part_);
   add_pairs();
   add_block(part_, sum_);
   sum_.progress.done += part_.stopped ? part_.progress.done : rays.rays.size();
-  done_ += rays.rays.size();
+  next_ += rays.rays.size();
 }
 
 void SuccessiveSearch::add_pairs() {
@@ -62,7 +64,7 @@ void SuccessiveSearch::add_pairs() {
   if (pairs == 0) return;
   require_memory("the pairs", bytes);
   sum_.pairs.reserve(std::max(sum_.pairs.capacity(), std::bit_ceil(pairs)));
-  const auto first = static_cast<std::uint32_t>(done_);
+  const auto first = static_cast<std::uint32_t>(next_);
   for (const Pair& pair : part_.pairs) sum_.pairs.push_back({pair.ray + first, pair.disc});
 }
 

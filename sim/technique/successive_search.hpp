@@ -11,19 +11,19 @@ namespace detp::sim {
 /// bit, and needs memory for one piece only.
 class SuccessiveSearch {
  public:
-  /// Keeps references to index, options and `sum`, to which the results are added; its arrays are reused. `rays`: number of all
-  /// rays. `kept_bytes`: of what the caller keeps during the search, for Outcome::bytes. Throws std::invalid_argument for options
+  /// Keeps references to index, options and `sum`, to which the results are added; its arrays are reused. The rays have the
+  /// numbers first … last - 1. `kept_bytes`: of what the caller keeps during the search, for Outcome::bytes. Throws std::invalid_argument for options
   /// out of range, and std::length_error for more than 2³² - 2 rays if pairs are wanted.
-  SuccessiveSearch(const Index& index, Problem problem, const RunOptions& options, std::uint64_t rays,
-                   double kept_bytes, Outcome& sum);
+  SuccessiveSearch(const Index& index, Problem problem, const RunOptions& options, std::uint64_t first,
+                   std::uint64_t last, double kept_bytes, Outcome& sum);
 
   /// Searches the next rays, which must not begin within a photon's path. Throws as set_rays and Index::search do;
   /// std::length_error, naming the bytes, if the pairs would not fit in memory. If a stop was requested, sum.stopped is set;
   /// nothing may be added then.
   void add(const PathRays& rays);
 
-  /// Number of rays added.
-  [[nodiscard]] std::uint64_t done() const { return done_; }
+  /// Number of the next ray.
+  [[nodiscard]] std::uint64_t next() const { return next_; }
   [[nodiscard]] bool stopped() const { return sum_.stopped; }
   /// A stop was requested between pieces.
   void stop() { sum_.stopped = true; }
@@ -40,11 +40,12 @@ class SuccessiveSearch {
   const RunOptions& options_;
   RunOptions run_;  ///< of a piece
   Totals own_;
-  std::uint64_t rays_;
+  std::uint64_t first_;
+  std::uint64_t last_;
+  std::uint64_t next_;
   double kept_bytes_;
   Outcome part_;
   Outcome& sum_;
-  std::uint64_t done_ = 0;
   std::uint64_t last_photon_ = 0;
 };
 

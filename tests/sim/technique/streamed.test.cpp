@@ -144,7 +144,7 @@ TEST_SUITE("bad input") {
                          std::length_error);
   }
 
-  TEST_CASE("no rays, no discs, invalid rays, rays that start too far away, and foreign totals are refused") {
+  TEST_CASE("no rays, no discs, invalid rays, rays that start too far away, and totals of other discs are refused") {
     const auto stream = [](std::span<const Disc> some, const RaySource& source, const RunOptions& options) {
       static_cast<void>(run_streamed(some, source, streamed_candidates.back(), {.run = options, .block = 100}));
     };
@@ -158,8 +158,13 @@ TEST_SUITE("bad input") {
                          doctest::Contains("ray 250: power must be >= 0 and finite (got -1)"), std::invalid_argument);
     CHECK_THROWS_WITH_AS(stream(streamed_discs(), UnderstatedDistance(), {}), doctest::Contains("a ray starts"),
                          std::invalid_argument);
-    Totals totals;
+    Totals totals(streamed_discs().size() + 1);
     CHECK_THROWS_WITH_AS(stream(streamed_discs(), RaysInMemory(streamed_rays()), {.totals = &totals}),
                          doctest::Contains("totals"), std::invalid_argument);
+    const Candidate candidate{Technique::box_tree, BoxTreeParameters{}};
+    for (const auto& [first, last] : {std::pair{5, 5}, {0, 1'000'000}})
+      CHECK_THROWS_AS((void)run_streamed(streamed_discs(), RaysInMemory(streamed_rays()), candidate,
+                                         {.run = {}, .first = static_cast<std::uint64_t>(first), .last = last}),
+                      std::invalid_argument);
   }
 }

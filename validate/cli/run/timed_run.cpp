@@ -33,18 +33,12 @@ TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, 
   const double work = progress && pairs ? predicted_work(job.given, candidate, options.engine) : 0;
   const double block = job.stream ? static_cast<double>(sim::default_block(job.discs.size())) : job.given.rays;
   const double each = std::min(1.0, block / job.given.rays);  // a block's share of the rays
-  double begun = 0;                                           // share of the rays before the current block
   const auto show = [&](double done) {
-    begun = done;
     if (progress) progress({doing, done, std::min(1.0, done + each), each * work});
   };
   show(0);
   sim::RunOptions reporting = options;
-  if (progress && work == 0)
-    reporting.progress = [&](double share) {
-      const double now = std::min(1.0, begun + each * share);
-      progress({doing, now, now});
-    };
+  if (progress && work == 0) reporting.progress = [&](double share) { progress({doing, share, share}); };
   if (job.stream) {
     sim::StreamedOutcome streamed = sim::run_streamed(
         job.discs, *job.stream, candidate, {.run = reporting, .front_facing = job.front_facing, .progress = show});

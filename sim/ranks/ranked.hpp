@@ -1,0 +1,30 @@
+#pragma once
+
+#include "detp/sim/technique/streamed.hpp"
+#include "ranks.hpp"
+
+/// A search of streamed rays that ranks share.
+namespace detp::sim {
+
+/// Rays first … last - 1 of a source: all photons of the blocks of photons from `block` to `next_block` - 1 (totals.hpp).
+struct ShareOfRays {
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+  std::uint64_t block = 0;
+  std::uint64_t next_block = 0;
+};
+
+/// The share of each of `ranks`: whole blocks of photons, so that the largest number of rays is as small as can be.
+[[nodiscard]] std::vector<ShareOfRays> shares_of_rays(const RaySource& source, int ranks);
+
+/// run_streamed on all ranks: each makes and searches its share of the rays. All must have the same discs, source, candidate and
+/// options. On rank 0 the outcome is that of run_streamed, bit for bit, for any number of ranks; counts, vectors and seconds are sums
+/// over the ranks. On the others it has the counts of its share, and no arrays.
+///
+/// Stopped on some ranks, the outcome has the hits of the shares before the first that was stopped, and that one's own. What fails on one rank
+/// throws on all: there what was thrown, RankFailed elsewhere.
+[[nodiscard]] StreamedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source,
+                                           const Valid<Candidate>& candidate, const StreamOptions& options,
+                                           Ranks& ranks);
+
+}  // namespace detp::sim

@@ -1,0 +1,10 @@
+# Compares what several numbers of processes find with what one finds. Called with -D MPIRUN=<mpiexec> -D PROGRAM=<shared_search>.
+foreach(count 1 2 3 4 7)
+  execute_process(COMMAND ${MPIRUN} --allow-run-as-root --oversubscribe -n ${count} ${PROGRAM} OUTPUT_VARIABLE found COMMAND_ERROR_IS_FATAL ANY)
+  if(count EQUAL 1)
+    set(one "${found}")
+    message("${found}")
+  elseif(NOT found STREQUAL one)
+    message(SEND_ERROR "${count} processes find\n${found}")
+  endif()
+endforeach()

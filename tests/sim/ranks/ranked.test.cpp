@@ -1,0 +1,201 @@
+#include "detp/sim/ranks/ranked.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <condition_variable>
+#include <cstring>
+#include <deque>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "detp/sim/geometry/random.hpp"
+#include "detp/sim/open/open_scene.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
+#include "detp/sim/photons/photon_source.hpp"
+#include "detp/sim/ranks/failures.hpp"
+#include "detp/sim/search/irradiance.hpp"
+#include "detp/sim/technique/technique.hpp"
+
+using namespace detp;
+using namespace detp::sim;
+
+namespace {
+
+/// Letters between ranks that are threads of one process.
+class Post {
+ public:
+  void put(std::pair<int, int> from_to, std::vector<std::byte> letter) {
+    const std::lock_guard lock(mutex_);
+    letters_[from_to].push_back(std::move(letter));
+    came_.notify_all();
+  }
+  std::vector<std::byte> take(std::pair<int, int> from_to) {
+    std::unique_lock lock(mutex_);
+    came_.wait(lock, [&] { return !letters_[from_to].empty(); });
+    std::vector<std::byte> letter = std::move(letters_[from_to].front());
+    letters_[from_to].pop_front();
+    return letter;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable came_;
+  std::map<std::pair<int, int>, std::deque<std::vector<std::byte>>> letters_;
+};
+
+class ThreadRank final : public Ranks {
+ public:
+  ThreadRank(Post& post, int rank, int count) : post_(post), rank_(rank), count_(count) {}
+  [[nodiscard]] int rank() const override { return rank_; }
+  [[nodiscard]] int count() const override { return count_; }
+  void send(std::span<const std::byte> bytes, int to) override { post_.put({rank_, to}, {bytes.begin(), bytes.end()}); }
+  void receive(std::span<std::byte> bytes, int from) override {
+    const std::vector<std::byte> letter = post_.take({from, rank_});
+    REQUIRE(letter.size() == bytes.size());
+    std::memcpy(bytes.data(), letter.data(), bytes.size());
+  }
+
+ private:
+  Post& post_;
+  int rank_;
+  int count_;
+};
+
+/// Calls work(ranks) on so many ranks, and returns what each threw.
+template <class Work>
+std::vector<std::exception_ptr> on_ranks(int count, const Work& work) {
+  Post post;
+  std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(count));
+  std::vector<std::jthread> threads;
+  for (int rank = 0; rank < count; ++rank)
+    threads.emplace_back([&, rank] {
+      ThreadRank ranks(post, rank, count);
+      try {
+        work(ranks);
+      } catch (...) {
+        thrown[static_cast<std::size_t>(rank)] = std::current_exception();
+      }
+    });
+  threads.clear();  // waits
+  return thrown;
+}
+
+/// Lines with powers that tell the order of additions apart.
+class UnequalLines final : public RaySource {
+ public:
+  UnequalLines(const Sphere& sphere, std::uint64_t count) : lines_(sphere, 3, count) {}
+  [[nodiscard]] std::uint64_t size() const override { return lines_.size(); }
+  void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const override {
+    lines_.read(first, block, stop);
+    for (std::size_t i = 0; i < block.size(); ++i)
+      block[i].power = std::exp(20 * uniform4(5, Stream::tests, first + i)[0]);
+  }
+  [[nodiscard]] double farthest_from(const glm::dvec3& point) const override { return lines_.farthest_from(point); }
+
+ private:
+  LinesOfField lines_;
+};
+
+void check_same(const StreamedOutcome& found, const StreamedOutcome& expected) {
+  CHECK(found.outcome.hits == expected.outcome.hits);
+  CHECK(found.outcome.irradiance == expected.outcome.irradiance);
+  CHECK(found.outcome.standard_error == expected.outcome.standard_error);
+  CHECK(found.outcome.upper_bound == expected.outcome.upper_bound);
+  CHECK(found.outcome.pairs == expected.outcome.pairs);
+  CHECK(found.outcome.total_hits == expected.outcome.total_hits);
+  CHECK(found.outcome.counts.loaded == expected.outcome.counts.loaded);
+  CHECK(found.outcome.progress.done == expected.outcome.progress.done);
+  CHECK(found.outcome.progress.of == expected.outcome.progress.of);
+  CHECK_FALSE(found.outcome.stopped);
+}
+
+const std::vector<Candidate> techniques{{Technique::box_tree, BoxTreeParameters{}},
+                                        {Technique::octree, OctreeParameters{3}},
+                                        {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
+                                        {Technique::grid, GridParameters{8}}};
+
+StreamOptions options_of(bool pairs) {
+  return {.run = {.pairs = pairs, .standard_error = true}, .block = std::size_t{1} << 17};
+}
+
+}  // namespace
+
+TEST_SUITE("ranks") {
+  TEST_CASE("any number of ranks finds the bytes of one process: lines, four techniques") {
+    const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20, 0.1, 3);
+    const UnequalLines lines(enclosing_sphere(discs), 1'700'000);  // seven blocks of photons
+    for (std::size_t i = 0; i < techniques.size(); ++i) {
+      CAPTURE(describe(techniques[i]));
+      const StreamedOutcome expected = run_streamed(discs, lines, techniques[i], options_of(true));
+      for (const int count : i == 0 ? std::vector{1, 2, 3, 4, 7, 9} : std::vector{static_cast<int>(i) + 1}) {
+        CAPTURE(count);
+        StreamedOutcome found;
+        const auto thrown = on_ranks(count, [&](Ranks& ranks) {
+          StreamedOutcome own = run_on_ranks(discs, lines, techniques[i], options_of(true), ranks);
+          if (ranks.rank() == 0) found = std::move(own);
+        });
+        for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+        check_same(found, expected);
+      }
+    }
+  }
+
+  TEST_CASE("any number of ranks finds the bytes of one process: photon paths") {
+    const Scene scene = open_scene({"@cornell", 200, 1, {}, {}});
+    std::vector<Disc> discs;
+    for (const Sample& sample : scene.samples) discs.push_back({sample.position, sample.normal, 0.05});
+    const PhotonSource paths(scene, 1'500'000, 1);
+    CHECK(paths.first_ray_of(0) == 0);
+    CHECK(paths.first_ray_of(paths.photons()) == paths.size());
+    const StreamedOutcome expected = run_streamed(discs, paths, techniques[0], options_of(false));
+    for (const int count : {2, 3}) {
+      StreamedOutcome found;
+      const auto thrown = on_ranks(count, [&](Ranks& ranks) {
+        StreamedOutcome own = run_on_ranks(discs, paths, techniques[0], options_of(false), ranks);
+        if (ranks.rank() == 0) found = std::move(own);
+      });
+      for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+      check_same(found, expected);
+    }
+  }
+
+  TEST_CASE("shares are whole blocks of photons, follow one another, and are as equal as can be") {
+    const LinesOfField lines({{0, 0, 0}, 1}, 1, 5 * (std::uint64_t{1} << 18) + 7);
+    const std::vector<ShareOfRays> shares = shares_of_rays(lines, 4);
+    REQUIRE(shares.size() == 4);
+    std::uint64_t first = 0;
+    for (const ShareOfRays& share : shares) {
+      CHECK(share.first == first);
+      CHECK(share.first == std::min(lines.size(), share.block << log2_photons_in_block));
+      CHECK(share.last - share.first <= 2U << 18);
+      first = share.last;
+    }
+    CHECK(first == lines.size());
+    CHECK(shares_of_rays(LinesOfField({{0, 0, 0}, 1}, 1, 10), 3)[2].first == 10);
+  }
+
+  TEST_CASE("what fails on one rank fails on all, with its message") {
+    const auto thrown = on_ranks(3, [&](Ranks& ranks) {
+      do_on_all(ranks, [] {});
+      do_on_all(ranks, [&] {
+        if (ranks.rank() == 1) throw std::length_error("no room");
+      });
+    });
+    CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown[0]), "rank 1: no room", RankFailed);
+    CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown[1]), "no room", std::length_error);
+    CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown[2]), "rank 1: no room", RankFailed);
+  }
+
+  TEST_CASE("sums of parts that do not follow one another are refused") {
+    Totals first(3);
+    Totals second(3);
+    second.begin_at(2);
+    CHECK_THROWS_AS(first.append(second), std::invalid_argument);
+    first.complete(2);
+    CHECK_NOTHROW(first.append(second));
+    CHECK_THROWS_AS(first.append(Totals(4)), std::invalid_argument);
+  }
+}
