@@ -29,8 +29,8 @@ std::uint64_t digest(const std::vector<T>& values) {
 
 void search(const char* what, const std::vector<Disc>& discs, const RaySource& source, Ranks& ranks) {
   const StreamOptions options{.run = {.standard_error = true}};
-  for (const Candidate& candidate : {Candidate{Technique::box_tree, BoxTreeParameters{}},
-                                     Candidate{Technique::octree, OctreeParameters{4}}}) {
+  for (const Candidate& candidate :
+       {Candidate{Technique::box_tree, BoxTreeParameters{}}, Candidate{Technique::octree, OctreeParameters{4}}}) {
     const StreamedOutcome found = run_on_ranks(discs, source, candidate, options, ranks);
     if (ranks.rank() == 0)
       std::printf("%s, %s: %llu hits, irradiance %016llx, errors %016llx\n", what,
@@ -57,8 +57,7 @@ int main(int argc, char** argv) {
     for (const Sample& sample : scene.samples) on_surface.push_back({sample.position, sample.normal, 0.05});
     search("photon paths", on_surface, PhotonSource(scene, rays, 1), ranks);
     if (ranks.rank() == 0)
-      std::fprintf(stderr, "%.3f s\n",
-                   std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+      std::fprintf(stderr, "%.3f s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
   MPI_Finalize();
 }
