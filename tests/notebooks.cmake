@@ -4,14 +4,8 @@
 # -D LIBRARY=<libdetp.so>.
 
 cmake_policy(VERSION 3.25)
-find_program(python python3 PATHS /usr/bin NO_DEFAULT_PATH)  # Debian's, which its packages are for
-if(python)
-  execute_process(COMMAND ${python} -c "import cffi, ipykernel, matplotlib, nbconvert, pandas" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
-endif()
-if(NOT python OR missing)
-  message("skipped: Debian's packages of .ci/notebook-packages.txt are not installed")
-  return()
-endif()
+include(${CMAKE_CURRENT_LIST_DIR}/debian_python.cmake)
+need_debian_python(notebook-packages cffi ipykernel matplotlib nbconvert pandas)
 
 set(drawn ${BUILD}/figures)
 file(REMOVE_RECURSE ${drawn})

@@ -2,12 +2,10 @@
 # -D SOURCE=<project> -D BUILD=<folder> -D LIBRARY=<libdetp.so>.
 set(place ${BUILD}/python)
 cmake_policy(VERSION 3.25)
-find_program(python python3 PATHS /usr/bin NO_DEFAULT_PATH)  # Debian's, which its packages are for
+include(${CMAKE_CURRENT_LIST_DIR}/debian_python.cmake)
+need_debian_python(python-packages setuptools cffi matplotlib numpy pandas pip venv wheel)
 find_program(mypy mypy)
-if(python)
-  execute_process(COMMAND ${python} -c "import setuptools, cffi, matplotlib, numpy, pandas, pip, venv, wheel" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
-endif()
-if(NOT python OR missing OR NOT mypy)
+if(NOT mypy)
   message("skipped: Debian's packages of .ci/python-packages.txt are not installed")
   return()
 endif()

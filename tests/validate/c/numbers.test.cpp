@@ -6,13 +6,22 @@
 #include <string>
 #include <vector>
 
+namespace {
+
+detp_workload samples_in_a_cube() {
+  detp_workload workload = DETP_INIT(detp_workload);
+  workload.rays = 1e5;
+  workload.samples = 1e4;
+  workload.disc_radius = 0.02;
+  workload.scene_side = 2;
+  return workload;
+}
+
+}  // namespace
+
 TEST_SUITE("c interface") {
   TEST_CASE("numbers alone are enough to choose; a newer caller's struct is taken as far as it is known") {
-    detp_workload workload = DETP_INIT(detp_workload);
-    workload.rays = 1e5;
-    workload.samples = 1e4;
-    workload.disc_radius = 0.02;
-    workload.scene_side = 2;
+    detp_workload workload = samples_in_a_cube();
     char text[200];
     detp_error error{};
     detp_plan_facts facts = DETP_INIT(detp_plan_facts);
@@ -42,11 +51,7 @@ TEST_SUITE("c interface") {
   }
 
   TEST_CASE("closed forms are those of the command, published and corrected; best parameters are filled in") {
-    detp_workload workload = DETP_INIT(detp_workload);
-    workload.rays = 1e5;
-    workload.samples = 1e4;
-    workload.disc_radius = 0.02;
-    workload.scene_side = 2;
+    detp_workload workload = samples_in_a_cube();
     char text[200];
     detp_error error{};
     std::vector<detp_sphere> spheres(64);
