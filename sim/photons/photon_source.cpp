@@ -5,6 +5,8 @@
 
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/parallel.hpp"
+#include "detp/sim/ranks/failures.hpp"
+#include "detp/sim/ranks/parts.hpp"
 #include "photon_rounds.hpp"
 
 namespace detp::sim {
@@ -15,15 +17,16 @@ constexpr std::uint64_t group_size = 1024;  // photons in a group
 }  // namespace
 
 PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed,
-                           std::shared_ptr<const RayCaster> caster, const std::stop_token& stop)
+                           std::shared_ptr<const RayCaster> caster, const std::stop_token& stop, Ranks* ranks)
     : tracer_(scene, seed, std::move(caster)), count_(count), limit_(0), starts_{0} {
   const DefaultFloatingPoint mode;
+  OneRank one;
   PhotonRounds rounds(scene.name, count);
   limit_ = rounds.limit();
   try {
     for (std::uint64_t photons = 0; starts_.back() < count;) {
       photons += rounds.next(starts_.back());
-      count_rays((photons + group_size - 1) / group_size, stop);
+      count_rays((photons + group_size - 1) / group_size, ranks != nullptr ? *ranks : one, stop);
     }
     if (count > 0) end_with_last_photon(stop);
   } catch (const Stopped&) {
@@ -37,21 +40,28 @@ PhotonPieces PhotonSource::trace_group(std::uint64_t group, const std::stop_toke
 }
 
 /// Traces further groups to count their rays, until `groups` groups are counted.
-void PhotonSource::count_rays(std::uint64_t groups, const std::stop_token& stop) {
+void PhotonSource::count_rays(std::uint64_t groups, Ranks& ranks, const std::stop_token& stop) {
+  struct Group {
+    std::uint64_t rays = 0;
+    Box origins;
+  };
   const std::uint64_t known = starts_.size() - 1;
   if (groups <= known) return;
-  std::vector<std::uint64_t> rays(groups - known);
-  std::vector<Box> boxes(groups - known);
-  sim::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
-    const PhotonPieces pieces = trace_group(known + i, stop);
-    rays[i] = pieces.rays.size();
-    for (const Ray& ray : pieces.rays) boxes[i].include(ray.origin);
+  std::vector<Group> found(groups - known);
+  const auto [first, last] = part_of(found.size(), ranks);
+  do_on_all(ranks, [&, begin = first, end = last] {
+    sim::parallel_for(begin, end, [&](std::size_t i) {
+      const PhotonPieces pieces = trace_group(known + i, stop);
+      found[i].rays = pieces.rays.size();
+      for (const Ray& ray : pieces.rays) found[i].origins.include(ray.origin);
+    });
   });
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    starts_.push_back(starts_.back() + rays[i]);
-    if (rays[i] == 0) continue;
-    origins_.include(boxes[i].low);
-    origins_.include(boxes[i].high);
+  share_parts(ranks, std::span(found));
+  for (const Group& group : found) {
+    starts_.push_back(starts_.back() + group.rays);
+    if (group.rays == 0) continue;
+    origins_.include(group.origins.low);
+    origins_.include(group.origins.high);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "detp/sim/ranks/ranks.hpp"
 #include "detp/sim/rays/ray_source.hpp"
 #include "photon_tracer.hpp"
 
@@ -10,15 +11,16 @@ namespace detp::sim {
 /// Returns the rays of photon_paths by number, bit for bit the same, without storing them.
 ///
 /// Each photon yields as many rays as its path has pieces. So the constructor traces all photons once, in groups of
-/// 1024, and keeps the number of rays before each group. A block that starts in the middle of a group traces that group
+/// 1024, and keeps the number of rays before each group; ranks share these groups. A block that starts in the middle of a group traces that group
 /// again and discards the rays before the block. So rays are traced twice: once to count them, once to read them.
 class PhotonSource final : public RaySource {
  public:
   /// Throws as photon_paths does.
   PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed, const std::stop_token& stop = {})
       : PhotonSource(scene, count, seed, caster_for(scene, stop), stop) {}
+  /// With `ranks`, all of them must make the same source. What one of them throws, the others throw as RankFailed or Stopped.
   PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed, std::shared_ptr<const RayCaster> caster,
-               const std::stop_token& stop = {});
+               const std::stop_token& stop = {}, Ranks* ranks = nullptr);
 
   /// The number of rays: at least `count`, to the end of the last photon's path.
   [[nodiscard]] std::uint64_t size() const override { return count_; }
@@ -33,7 +35,7 @@ class PhotonSource final : public RaySource {
 
  private:
   [[nodiscard]] PhotonPieces trace_group(std::uint64_t group, const std::stop_token& stop) const;
-  void count_rays(std::uint64_t groups, const std::stop_token& stop);
+  void count_rays(std::uint64_t groups, Ranks& ranks, const std::stop_token& stop);
   /// Number of the group that has the ray.
   [[nodiscard]] std::uint64_t group_of(std::uint64_t ray) const;
   /// Ends at the end of the photon that has ray count_ - 1.

@@ -3,25 +3,35 @@
 #include <span>
 #include <vector>
 
+#include "detp/sim/base/stopped.hpp"
+
 namespace detp::sim {
 namespace {
 
-std::string message_of(const std::exception_ptr& failed) {
-  if (!failed) return "";
-  try {
-    std::rethrow_exception(failed);
-  } catch (const std::exception& error) {
-    return error.what();
-  } catch (...) {
-    return "an unknown exception";
-  }
-}
+enum class End { well, stopped, failed };
 
 struct Report {
-  int failed = 0;
+  End end = End::well;
   int rank = 0;
   std::size_t length = 0;
 };
+
+/// Sets the message, too.
+Report report_of(const std::exception_ptr& failed, int rank, std::string& message) {
+  End end = End::well;
+  if (failed) try {
+      end = End::failed;
+      std::rethrow_exception(failed);
+    } catch (const Stopped& stopped) {
+      end = End::stopped;
+      message = stopped.what();
+    } catch (const std::exception& error) {
+      message = error.what();
+    } catch (...) {
+      message = "an unknown exception";
+    }
+  return {end, rank, message.size()};
+}
 
 void send_report(Ranks& ranks, const Report& report, const std::string& message, int to) {
   ranks.send_one(report, to);
@@ -38,13 +48,13 @@ Report receive_report(Ranks& ranks, std::string& message, int from) {
 }  // namespace
 
 void agree(Ranks& ranks, const std::exception_ptr& failed) {
-  std::string message = message_of(failed);
-  Report first{failed ? 1 : 0, ranks.rank(), message.size()};
+  std::string message;
+  Report first = report_of(failed, ranks.rank(), message);
   if (ranks.rank() == 0) {
     for (int from = 1; from < ranks.count(); ++from) {
       std::string theirs;
       const Report report = receive_report(ranks, theirs, from);
-      if (first.failed != 0 || report.failed == 0) continue;
+      if (first.end >= report.end) continue;
       first = report;
       message = theirs;
     }
@@ -54,7 +64,8 @@ void agree(Ranks& ranks, const std::exception_ptr& failed) {
     first = receive_report(ranks, message, 0);
   }
   if (failed) std::rethrow_exception(failed);
-  if (first.failed != 0) throw RankFailed(first.rank, message);
+  if (first.end == End::failed) throw RankFailed(first.rank, message);
+  if (first.end == End::stopped) throw Stopped(message);
 }
 
 }  // namespace detp::sim

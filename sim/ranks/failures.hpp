@@ -17,7 +17,7 @@ class RankFailed : public std::runtime_error {
 };
 
 /// Every rank tells whether it failed, and hears of the others. Returns on all ranks if none failed. Else throws on all: `failed`
-/// where it is set, on the other ranks RankFailed of the first that failed.
+/// where it is set, on the other ranks RankFailed of the first that failed, or Stopped if none failed but some were stopped.
 void agree(Ranks& ranks, const std::exception_ptr& failed);
 
 /// Calls work(), which must not talk with other ranks, on this rank; then agrees.

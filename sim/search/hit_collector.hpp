@@ -41,6 +41,7 @@ class HitCollector {
         options_(options),
         outcome_(outcome),
         first_photon_(sim::first_photon(options)),
+        photon_blocks_(sim::photon_blocks(problem, options)),
         last_block_(last_block(problem, options)),
         own_(0, options.memory),
         blocks_(options.memory) {
@@ -56,7 +57,7 @@ class HitCollector {
   void add_hit(std::uint32_t ray, std::uint32_t disc) {
     const Ray& kept = problem_.rays()[ray];
     Totals& all = totals();
-    if (!blocks_.empty()) fold(disc, block_of_photon(problem_.photon(ray, first_photon_)));
+    if (!blocks_.empty()) fold(disc, photon_blocks_.of(problem_.photon(ray, first_photon_)));
     DiscTotals& sums = all[disc];
     ++sums.hits;
     if (all.keeps_errors())
@@ -130,6 +131,7 @@ class HitCollector {
   const RunOptions& options_;
   Outcome& outcome_;
   std::uint64_t first_photon_;
+  PhotonBlocks photon_blocks_;
   std::uint64_t last_block_;
   std::optional<Totals> before_;  ///< the caller's totals before the search
   Totals own_;

@@ -99,8 +99,9 @@ double Problem::store_rays(const PathRays& paths, int threads, std::uint64_t fir
   return checked.farthest;
 }
 
-std::size_t Problem::end_of_block(std::size_t first, std::size_t end, std::uint64_t first_photon) const {
-  const std::uint64_t next = (block_of_photon(photon(first, first_photon)) + 1) << log2_photons_in_block;
+std::size_t Problem::end_of_block(std::size_t first, std::size_t end, std::uint64_t first_photon,
+                                  PhotonBlocks blocks) const {
+  const std::uint64_t next = blocks.first(blocks.of(photon(first, first_photon)) + 1);
   if (!numbered()) return static_cast<std::size_t>(std::min<std::uint64_t>(end, next - first_photon));
   const auto begin = paths_.photons.begin();
   return static_cast<std::size_t>(

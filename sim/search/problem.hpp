@@ -9,6 +9,7 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/geometry/paths.hpp"
+#include "photon_blocks.hpp"
 
 namespace detp::sim {
 
@@ -35,8 +36,9 @@ class Problem {
   [[nodiscard]] std::uint64_t photons_to() const {
     return numbered() ? std::max(paths_.photon_count, paths_.photons.back() + 1) : rays_.size();
   }
-  /// The end of the rays from ray `first` on, at most `end`, whose photons are in the same block (totals.hpp).
-  [[nodiscard]] std::size_t end_of_block(std::size_t first, std::size_t end, std::uint64_t first_photon) const;
+  /// The end of the rays from ray `first` on, at most `end`, whose photons are in the same block.
+  [[nodiscard]] std::size_t end_of_block(std::size_t first, std::size_t end, std::uint64_t first_photon,
+                                         PhotonBlocks blocks) const;
   /// Place where the ray's photon met a surface, as a distance from its origin; not finite if it met none.
   [[nodiscard]] double landing(std::size_t ray) const {
     return paths_.landings.empty() ? rays_[ray].length : paths_.landings[ray];

@@ -56,8 +56,13 @@ double found_bytes(const Problem& problem, const RunOptions& options) {
 
 std::uint64_t first_photon(const RunOptions& options) { return options.totals == nullptr ? 0 : options.totals->rays(); }
 
+PhotonBlocks photon_blocks(const Problem& problem, const RunOptions& options) {
+  const bool given = options.totals != nullptr && !options.totals->empty();
+  return given ? options.totals->photon_blocks() : PhotonBlocks::for_discs(problem.discs().size());
+}
+
 std::uint64_t last_block(const Problem& problem, const RunOptions& options) {
-  return block_of_photon(problem.photon(problem.rays().size() - 1, first_photon(options)));
+  return photon_blocks(problem, options).of(problem.photon(problem.rays().size() - 1, first_photon(options)));
 }
 
 }  // namespace detp::sim

@@ -29,6 +29,9 @@ void add_checked_bytes(std::string_view what, double bytes, const Problem& probl
 /// The number of ray 0's photon, if rays have no photon numbers.
 [[nodiscard]] std::uint64_t first_photon(const RunOptions& options);
 
+/// The blocks in which photons are summed: those of options.totals, or those for the problem's discs.
+[[nodiscard]] PhotonBlocks photon_blocks(const Problem& problem, const RunOptions& options);
+
 /// The block of photons of the problem's last ray.
 [[nodiscard]] std::uint64_t last_block(const Problem& problem, const RunOptions& options);
 

@@ -22,6 +22,7 @@ Totals::Totals(const Totals& other, Memory* memory)
       levels_(memory),
       left_(memory),
       keeps_errors_(other.keeps_errors_),
+      blocks_(other.blocks_),
       origin_(other.origin_),
       block_(other.block_),
       rays_(other.rays_),
@@ -101,7 +102,7 @@ void Totals::fold(std::size_t disc, std::uint64_t from, std::uint64_t to, DiscTo
 
 void Totals::begin_at(std::uint64_t block) {
   origin_ = block_ = block;
-  rays_ = block << log2_photons_in_block;  // if rays are photons
+  rays_ = photon_blocks().first(block);  // if rays are photons
 }
 
 void Totals::complete(std::uint64_t block) {
@@ -125,7 +126,7 @@ std::vector<Totals::Subtree> Totals::subtrees() const {
 }
 
 Totals::Shape Totals::shape() const {
-  return {discs_.size(), origin_, block_, rays_, photons_, keeps_errors_ ? std::uint64_t{1} : 0, largest_power_};
+  return {discs_.size(), origin_, block_, rays_, photons_, keeps_errors_ ? std::uint64_t{1} : 0, largest_power_, photon_blocks()};
 }
 
 Totals Totals::of_shape(const Shape& shape) {
@@ -136,13 +137,15 @@ Totals Totals::of_shape(const Shape& shape) {
   made.photons_ = shape.photons;
   made.largest_power_ = shape.largest_power;
   made.keeps_errors_ = shape.errors != 0;
+  made.blocks_ = shape.blocks;
   made.resize(shape.discs);
   made.make_levels(shape.discs, shape.block);
   return made;
 }
 
 void Totals::append(const Totals& later) {
-  if (later.origin_ != block_ || later.discs_.size() != discs_.size() || later.keeps_errors_ != keeps_errors_)
+  if (later.origin_ != block_ || later.discs_.size() != discs_.size() || later.keeps_errors_ != keeps_errors_ ||
+      later.photon_blocks() != photon_blocks())
     throw std::invalid_argument("sums of photons do not follow one another");
   make_levels(discs_.size(), later.block_);
   for (const Subtree& subtree : later.subtrees()) {

@@ -3,20 +3,17 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory_resource>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "photon_blocks.hpp"
 #include "photon_sums.hpp"
 
 /// Sums over rays, in the order that all techniques use.
 namespace detp::sim {
 
 class Problem;
-
-/// Photons are summed in blocks of so many: block b has the photons b · 2¹⁸ … (b + 1) · 2¹⁸ - 1.
-inline constexpr int log2_photons_in_block = 18;
-
-[[nodiscard]] constexpr std::uint64_t block_of_photon(std::uint64_t photon) { return photon >> log2_photons_in_block; }
 
 /// The sums over the rays that hit one disc.
 struct DiscTotals {
@@ -26,9 +23,8 @@ struct DiscTotals {
 
 /// The sums over rays for each disc, in the order of the discs.
 ///
-/// Floating-point sums depend on their order, so the order is fixed: it depends on the photons' numbers alone, and not on
-/// techniques, threads, or how rays are cut into searches. Within a block of 2¹⁸ photons, powers are added in ray order,
-/// in three sums by dominant axis; the block's power is (x + y) + z. Squares of photons' powers likewise (PhotonSums).
+/// Floating-point sums depend on their order, so the order is fixed: it depends on the photons' numbers and the number of
+/// discs, and not on techniques, threads, or how rays are cut into searches. Within a block of photons, powers are added in ray order, in three sums by dominant axis; the block's power is (x + y) + z. Squares of photons' powers likewise (PhotonSums).
 /// Blocks are added pairwise, as the leaves of a binary tree: T(0, b) is block b, T(l + 1, i) = T(l, 2i) + T(l, 2i + 1), and
 /// a block without photons counts as 0. So any range of blocks can be summed apart, for instance by another process: as the largest
 /// subtrees that it contains.
@@ -45,6 +41,10 @@ class Totals {
   [[nodiscard]] bool empty() const { return discs_.empty(); }
   [[nodiscard]] std::size_t size() const { return discs_.size(); }
   void resize(std::size_t discs);
+  /// Those for the number of discs, unless others were set.
+  [[nodiscard]] PhotonBlocks photon_blocks() const { return blocks_.value_or(PhotonBlocks::for_discs(size())); }
+  /// To be called before the first ray, if the discs are a part of all.
+  void set_photon_blocks(PhotonBlocks blocks) { blocks_ = blocks; }
 
   DiscTotals& operator[](std::size_t disc) { return discs_[disc]; }
   const DiscTotals& operator[](std::size_t disc) const { return discs_[disc]; }
@@ -66,7 +66,8 @@ class Totals {
   /// All discs have been folded up to this block.
   void begin_block(std::uint64_t block) { block_ = block; }
 
-  /// Sums of blocks from this one on, a part of all: blocks before it are summed elsewhere. To be called before the first ray.
+  /// Sums of blocks from this one on, a part of all: blocks before it are summed elsewhere. To be called before the first ray, when the
+  /// number of discs is known.
   void begin_at(std::uint64_t block);
   /// The first block that is summed here.
   [[nodiscard]] std::uint64_t origin() const { return origin_; }
@@ -80,6 +81,7 @@ class Totals {
   struct Shape {
     std::uint64_t discs = 0, origin = 0, block = 0, rays = 0, photons = 0, errors = 0;
     double largest_power = 0;
+    PhotonBlocks blocks;
   };
   [[nodiscard]] Shape shape() const;
   /// With arrays of the right sizes, to be filled by for_each_array.
@@ -136,6 +138,7 @@ class Totals {
   std::pmr::vector<Level> levels_;
   std::pmr::vector<Level> left_;  ///< subtrees whose left neighbour begins before origin_, by level
   bool keeps_errors_ = false;
+  std::optional<PhotonBlocks> blocks_;
   std::uint64_t origin_ = 0;
   std::uint64_t block_ = 0;
   std::uint64_t rays_ = 0;

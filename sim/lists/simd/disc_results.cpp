@@ -91,7 +91,7 @@ void DiscResults::ensure_sums() {
 /// Moves the sums of earlier blocks of photons into the totals.
 void DiscResults::begin_photons(std::size_t first_ray) {
   const std::uint64_t before = totals().block();
-  const std::uint64_t block = block_of_photon(problem_.photon(first_ray, first_photon_));
+  const std::uint64_t block = photon_blocks(problem_, options_).of(problem_.photon(first_ray, first_photon_));
   if (block == before) return;
   add_counted_hits();
   for (std::size_t place = 0; place < sums_.size(); ++place)

@@ -41,15 +41,16 @@ class Block {
 [[nodiscard]] bool needs_powers(const Problem& problem, const RunOptions& options);
 
 /// Calls search(block) for one block after another, until all are searched or a stop is requested. All photons of a block
-/// of rays are in one block of photons (totals.hpp). While a block is searched, another thread, if there is one, loads the
+/// of rays are in one block of photons (photon_blocks.hpp). While a block is searched, another thread, if there is one, loads the
 /// next block. Reports the share of the rays before each block.
 template <class Search>
 void for_each_block(const Problem& problem, const Frame& frame, const RunOptions& options, const Search& search) {
   const std::size_t most = rays_in_block(problem.discs().size());
   const std::uint64_t first_photon = detp::sim::first_photon(options);
+  const PhotonBlocks blocks = photon_blocks(problem, options);
   const auto size_at = [&](std::size_t first) {
     const std::size_t rays = problem.rays().size();
-    return first < rays ? problem.end_of_block(first, std::min(first + most, rays), first_photon) - first : 0;
+    return first < rays ? problem.end_of_block(first, std::min(first + most, rays), first_photon, blocks) - first : 0;
   };
   const bool keep_powers = needs_powers(problem, options);
   Block now(options.memory, keep_powers);

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "detp/sim/base/memory.hpp"
+#include "detp/sim/ranks/failures.hpp"
 #include "detp/sim/search/irradiance.hpp"
-#include "failures.hpp"
 
 namespace detp::sim {
 namespace {
@@ -77,11 +77,11 @@ void add_part(Ranks& ranks, int from, Totals& totals, StreamedOutcome& all) {
 
 }  // namespace
 
-std::vector<ShareOfRays> shares_of_rays(const RaySource& source, int ranks) {
-  const std::uint64_t blocks = block_of_photon(source.photons() - 1) + 1;
+std::vector<ShareOfRays> shares_of_rays(const RaySource& source, PhotonBlocks photon_blocks, int ranks) {
+  const std::uint64_t blocks = photon_blocks.of(source.photons() - 1) + 1;
   std::vector<std::uint64_t> starts;  // first ray of each block; at the end, the number of all rays
   for (std::uint64_t block = 0; block < blocks; ++block)
-    starts.push_back(source.first_ray_of(block << log2_photons_in_block));
+    starts.push_back(source.first_ray_of(photon_blocks.first(block)));
   starts.push_back(source.size());
   const auto fits = [&](std::uint64_t most) {  // with at most so many rays a rank
     int needed = 1;
@@ -112,8 +112,10 @@ std::vector<ShareOfRays> shares_of_rays(const RaySource& source, int ranks) {
 StreamedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
                              const StreamOptions& options, Ranks& ranks) {
   if (ranks.count() == 1) return run_streamed(discs, source, candidate, options);
-  const ShareOfRays share = shares_of_rays(source, ranks.count())[static_cast<std::size_t>(ranks.rank())];
   Totals totals;
+  totals.set_photon_blocks(PhotonBlocks::for_discs(discs.size()));
+  const auto rank = static_cast<std::size_t>(ranks.rank());
+  const ShareOfRays share = shares_of_rays(source, totals.photon_blocks(), ranks.count())[rank];
   StreamedOutcome found;
   do_on_all(ranks, [&] {
     totals.begin_at(share.block);

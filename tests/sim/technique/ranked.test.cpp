@@ -1,4 +1,4 @@
-#include "detp/sim/ranks/ranked.hpp"
+#include "detp/sim/technique/ranked.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,11 +11,13 @@
 #include <mutex>
 #include <thread>
 
+#include "detp/sim/base/stopped.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/photon_source.hpp"
 #include "detp/sim/ranks/failures.hpp"
+#include "detp/sim/ranks/parts.hpp"
 #include "detp/sim/search/irradiance.hpp"
 #include "detp/sim/technique/technique.hpp"
 
@@ -154,7 +156,11 @@ TEST_SUITE("ranks") {
     for (const int count : {2, 3}) {
       StreamedOutcome found;
       const auto thrown = on_ranks(count, [&](Ranks& ranks) {
-        StreamedOutcome own = run_on_ranks(discs, paths, techniques[0], options_of(false), ranks);
+        const PhotonSource together(scene, 1'500'000, 1, caster_for(scene), {}, &ranks);
+        CHECK(together.size() == paths.size());
+        CHECK(together.photons() == paths.photons());
+        CHECK(together.farthest_from({0, 0, 0}) == paths.farthest_from({0, 0, 0}));
+        StreamedOutcome own = run_on_ranks(discs, together, techniques[0], options_of(false), ranks);
         if (ranks.rank() == 0) found = std::move(own);
       });
       for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
@@ -164,17 +170,18 @@ TEST_SUITE("ranks") {
 
   TEST_CASE("shares are whole blocks of photons, follow one another, and are as equal as can be") {
     const LinesOfField lines({{0, 0, 0}, 1}, 1, 5 * (std::uint64_t{1} << 18) + 7);
-    const std::vector<ShareOfRays> shares = shares_of_rays(lines, 4);
+    const PhotonBlocks blocks{18};
+    const std::vector<ShareOfRays> shares = shares_of_rays(lines, blocks, 4);
     REQUIRE(shares.size() == 4);
     std::uint64_t first = 0;
     for (const ShareOfRays& share : shares) {
       CHECK(share.first == first);
-      CHECK(share.first == std::min(lines.size(), share.block << log2_photons_in_block));
+      CHECK(share.first == std::min(lines.size(), blocks.first(share.block)));
       CHECK(share.last - share.first <= 2U << 18);
       first = share.last;
     }
     CHECK(first == lines.size());
-    CHECK(shares_of_rays(LinesOfField({{0, 0, 0}, 1}, 1, 10), 3)[2].first == 10);
+    CHECK(shares_of_rays(LinesOfField({{0, 0, 0}, 1}, 1, 10), blocks, 3)[2].first == 10);
   }
 
   TEST_CASE("what fails on one rank fails on all, with its message") {
@@ -187,6 +194,34 @@ TEST_SUITE("ranks") {
     CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown[0]), "rank 1: no room", RankFailed);
     CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown[1]), "no room", std::length_error);
     CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown[2]), "rank 1: no room", RankFailed);
+  }
+
+  TEST_CASE("a rank that is stopped stops all, unless another fails") {
+    const auto end = [](int failing) {
+      return on_ranks(3, [&](Ranks& ranks) {
+        do_on_all(ranks, [&] {
+          if (ranks.rank() == 1) throw Stopped("stopped at 5 rays");
+          if (ranks.rank() == failing) throw std::length_error("no room");
+        });
+      });
+    };
+    for (const std::exception_ptr& thrown : end(-1))
+      CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown), "stopped at 5 rays", Stopped);
+    CHECK_THROWS_WITH_AS(std::rethrow_exception(end(2)[0]), "rank 2: no room", RankFailed);
+  }
+
+  TEST_CASE("parts of an array follow one another, for any number of ranks") {
+    for (const int count : {1, 2, 3, 7}) {
+      const auto thrown = on_ranks(count, [&](Ranks& ranks) {
+        std::vector<std::size_t> numbers(11, 99);
+        const auto [first, last] = part_of(numbers.size(), ranks);
+        CHECK(last - first >= 11U / static_cast<unsigned>(count));
+        for (std::size_t i = first; i < last; ++i) numbers[i] = i;
+        share_parts(ranks, std::span(numbers));
+        for (std::size_t i = 0; i < numbers.size(); ++i) CHECK(numbers[i] == i);
+      });
+      for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+    }
   }
 
   TEST_CASE("sums of parts that do not follow one another are refused") {

@@ -1,12 +1,13 @@
 #pragma once
 
-#include "detp/sim/technique/streamed.hpp"
-#include "ranks.hpp"
+#include "detp/sim/ranks/ranks.hpp"
+#include "detp/sim/search/photon_blocks.hpp"
+#include "streamed.hpp"
 
 /// A search of streamed rays that ranks share.
 namespace detp::sim {
 
-/// Rays first … last - 1 of a source: all photons of the blocks of photons from `block` to `next_block` - 1 (totals.hpp).
+/// Rays first … last - 1 of a source: all photons of the blocks of photons from `block` to `next_block` - 1.
 struct ShareOfRays {
   std::uint64_t first = 0;
   std::uint64_t last = 0;
@@ -15,7 +16,7 @@ struct ShareOfRays {
 };
 
 /// The share of each of `ranks`: whole blocks of photons, so that the largest number of rays is as small as can be.
-[[nodiscard]] std::vector<ShareOfRays> shares_of_rays(const RaySource& source, int ranks);
+[[nodiscard]] std::vector<ShareOfRays> shares_of_rays(const RaySource& source, PhotonBlocks photon_blocks, int ranks);
 
 /// run_streamed on all ranks: each makes and searches its share of the rays. All must have the same discs, source, candidate and
 /// options. On rank 0 the outcome is that of run_streamed, bit for bit, for any number of ranks; counts, vectors and seconds are sums
