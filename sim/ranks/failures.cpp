@@ -13,7 +13,6 @@ enum class End { well, stopped, failed };
 struct Report {
   End end = End::well;
   int rank = 0;
-  std::size_t length = 0;
 };
 
 /// Sets the message, too.
@@ -30,18 +29,17 @@ Report report_of(const std::exception_ptr& failed, int rank, std::string& messag
     } catch (...) {
       message = "an unknown exception";
     }
-  return {end, rank, message.size()};
+  return {end, rank};
 }
 
 void send_report(Ranks& ranks, const Report& report, const std::string& message, int to) {
   ranks.send_one(report, to);
-  ranks.send_all(std::span(message.data(), message.size()), to);
+  send_text(ranks, message, to);
 }
 
 Report receive_report(Ranks& ranks, std::string& message, int from) {
   const Report report = ranks.receive_one<Report>(from);
-  message.resize(report.length);
-  ranks.receive_all(std::span(message.data(), message.size()), from);
+  message = receive_text(ranks, from);
   return report;
 }
 

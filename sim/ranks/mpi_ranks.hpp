@@ -20,7 +20,7 @@ namespace detp::sim {
 class MpiRanks final : public Ranks {
  public:
   /// The communicator must outlive the object; use one for it alone (MPI_Comm_dup). After a stop request, another rank that is silent
-  /// for so many seconds is given up: RankFailed.
+  /// for so many seconds is given up: RankSilent.
   explicit MpiRanks(MPI_Comm communicator, std::stop_token stop = {}, double patience = 0.5)
       : communicator_(communicator), stop_(std::move(stop)), patience_(patience) {
     check(MPI_Comm_set_errhandler(communicator_, MPI_ERRORS_RETURN));
@@ -58,7 +58,7 @@ class MpiRanks final : public Ranks {
       for (int other = 0; other < count_; ++other)
         if (is_partner(other)) wait_until([&] { return ended(other); }, other, [] {});
       return true;
-    } catch (const RankFailed&) {
+    } catch (const RankSilent&) {
       return false;
     }
   }
@@ -117,7 +117,7 @@ class MpiRanks final : public Ranks {
       watch();
       if (stop_.stop_requested() && stopped == Clock::time_point{}) stopped = now;
       if (stopped != Clock::time_point{} && std::chrono::duration<double>(now - stopped).count() > patience_)
-        throw RankFailed(other, "does not answer; it may have died");
+        throw RankSilent(other);
       if (now - begin < often)
         std::this_thread::yield();
       else

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 
 /// Processes that work together: what a search on ranks needs of them.
@@ -41,6 +42,17 @@ class Ranks {
     return value;
   }
 };
+
+inline void send_text(Ranks& ranks, const std::string& text, int to) {
+  ranks.send_one(text.size(), to);
+  ranks.send_all(std::span(text.data(), text.size()), to);
+}
+
+[[nodiscard]] inline std::string receive_text(Ranks& ranks, int from) {
+  std::string text(ranks.receive_one<std::size_t>(from), ' ');
+  ranks.receive_all(std::span(text.data(), text.size()), from);
+  return text;
+}
 
 /// A process alone.
 class OneRank final : public Ranks {

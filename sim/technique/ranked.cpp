@@ -1,8 +1,10 @@
 #include "ranked.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "detp/sim/base/memory.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/sim/search/irradiance.hpp"
 
@@ -14,13 +16,14 @@ struct PartOfOutcome {
   Counts<std::uint64_t> counts;
   Vectors vectors;
   HitBatches batches;
-  Phases seconds;
+  Phases phases;
   std::uint64_t total_hits = 0;
   std::uint64_t done = 0;
   std::uint64_t pairs = 0;
   double read_seconds = 0;
   double check_seconds = 0;
   double bytes = 0;
+  double seconds = 0;
   int stopped = 0;
 };
 
@@ -35,43 +38,51 @@ Totals receive_totals(Ranks& ranks, int from) {
   return totals;
 }
 
-void send_part(const StreamedOutcome& found, Ranks& ranks) {
+void send_part(const StreamedOutcome& found, double seconds, Ranks& ranks) {
   const Outcome& outcome = found.outcome;
   ranks.send_one(PartOfOutcome{.counts = outcome.counts,
                                .vectors = outcome.vectors,
                                .batches = outcome.batches,
-                               .seconds = outcome.seconds,
+                               .phases = outcome.seconds,
                                .total_hits = outcome.total_hits,
                                .done = outcome.progress.done,
                                .pairs = outcome.pairs.size(),
                                .read_seconds = found.read_seconds,
                                .check_seconds = found.check_seconds,
                                .bytes = found.bytes,
+                               .seconds = seconds,
                                .stopped = outcome.stopped ? 1 : 0},
                  0);
   ranks.send_all(std::span<const Pair>(outcome.pairs), 0);
 }
 
+Phases slower(const Phases& a, const Phases& b) {
+  return {std::max(a.prepare, b.prepare), std::max(a.order, b.order), std::max(a.build, b.build),
+          std::max(a.search, b.search)};
+}
+
 /// Adds the part of another rank, unless one before it was stopped.
-void add_part(Ranks& ranks, int from, Totals& totals, StreamedOutcome& all) {
+void add_part(Ranks& ranks, int from, Totals& totals, RankedOutcome& ranked) {
   const auto part = ranks.receive_one<PartOfOutcome>(from);
   std::vector<Pair> pairs(part.pairs);
   ranks.receive_all(std::span(pairs), from);
   const Totals more = receive_totals(ranks, from);
+  ranked.seconds.push_back(part.seconds);
+  StreamedOutcome& all = ranked.found;
   if (all.outcome.stopped) return;
   totals.append(more);
   Outcome one;
   one.counts = part.counts;
   one.vectors = part.vectors;
   one.batches = part.batches;
-  one.seconds = part.seconds;
   one.total_hits = part.total_hits;
   one.stopped = part.stopped != 0;
   add_block(one, all.outcome);
+  all.outcome.seconds = slower(all.outcome.seconds, part.phases);
   all.outcome.progress.done += part.done;
   all.outcome.pairs.insert(all.outcome.pairs.end(), pairs.begin(), pairs.end());
-  all.read_seconds += part.read_seconds;
-  all.check_seconds += part.check_seconds;
+  all.read_seconds = std::max(all.read_seconds, part.read_seconds);
+  all.check_seconds = std::max(all.check_seconds, part.check_seconds);
   all.bytes = std::max(all.bytes, part.bytes);
 }
 
@@ -109,18 +120,27 @@ std::vector<ShareOfRays> shares_of_rays(const RaySource& source, PhotonBlocks ph
   return shares;
 }
 
-StreamedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
+double imbalance(std::span<const double> seconds) {
+  if (seconds.empty()) return 0;
+  const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  return *std::ranges::max_element(seconds) / (sum / static_cast<double>(seconds.size())) - 1;
+}
+
+RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
                              const StreamOptions& options, Ranks& ranks) {
-  if (ranks.count() == 1) return run_streamed(discs, source, candidate, options);
+  if (ranks.count() == 1) return {run_streamed(discs, source, candidate, options)};
+  const Stopwatch watch;
+  double own_seconds = 0;
   Totals totals;
   totals.set_photon_blocks(PhotonBlocks::for_discs(discs.size()));
   const auto rank = static_cast<std::size_t>(ranks.rank());
   const ShareOfRays share = shares_of_rays(source, totals.photon_blocks(), ranks.count())[rank];
-  StreamedOutcome found;
+  RankedOutcome ranked;
+  StreamedOutcome& found = ranked.found;
   do_on_all(ranks, [&] {
-    totals.begin_at(share.block);
     if (options.run.standard_error) totals.keep_errors();
     totals.resize(discs.size());
+    totals.begin_at(share.block);
     if (share.first == share.last) return totals.complete(share.next_block);
     StreamOptions own = options;
     own.run.totals = &totals;
@@ -130,22 +150,24 @@ StreamedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& sourc
     own.count_building = ranks.rank() == 0;
     found = run_streamed(discs, source, candidate, own);
     if (!found.outcome.stopped) totals.complete(share.next_block);
+    own_seconds = watch.seconds();
   });
   if (ranks.rank() != 0) {
-    send_part(found, ranks);
+    send_part(found, own_seconds, ranks);
     send_totals(totals, ranks);
-    return found;
+    return ranked;
   }
-  for (int from = 1; from < ranks.count(); ++from) add_part(ranks, from, totals, found);
+  ranked.seconds.push_back(own_seconds);
+  for (int from = 1; from < ranks.count(); ++from) add_part(ranks, from, totals, ranked);
   Outcome& outcome = found.outcome;
   outcome.progress.of = source.size();
   totals.emitted(source.photons());
   finish(totals, discs, outcome);
-  if (!outcome.stopped) return found;
+  if (!outcome.stopped) return ranked;
   outcome.pairs.clear();
   outcome.standard_error.clear();
   outcome.upper_bound.clear();
-  return found;
+  return ranked;
 }
 
 }  // namespace detp::sim

@@ -18,13 +18,21 @@ struct ShareOfRays {
 /// The share of each of `ranks`: whole blocks of photons, so that the largest number of rays is as small as can be.
 [[nodiscard]] std::vector<ShareOfRays> shares_of_rays(const RaySource& source, PhotonBlocks photon_blocks, int ranks);
 
+struct RankedOutcome {
+  StreamedOutcome found;
+  std::vector<double> seconds = {};  ///< on rank 0: those that each rank needed for its share; empty if there is one
+};
+
+/// The slowest rank's seconds over their mean, less 1.
+[[nodiscard]] double imbalance(std::span<const double> seconds);
+
 /// run_streamed on all ranks: each makes and searches its share of the rays. All must have the same discs, source, candidate and
-/// options. On rank 0 the outcome is that of run_streamed, bit for bit, for any number of ranks; counts, vectors and seconds are sums
-/// over the ranks. On the others it has the counts of its share, and no arrays.
+/// options. On rank 0 the outcome is that of run_streamed, bit for bit, for any number of ranks; counts and vectors are sums
+/// over the ranks, seconds those of the slowest in each phase. On the others it has the counts of its share, and no arrays.
 ///
 /// Stopped on some ranks, the outcome has the hits of the shares before the first that was stopped, and that one's own. What fails on one rank
 /// throws on all: there what was thrown, RankFailed elsewhere.
-[[nodiscard]] StreamedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source,
+[[nodiscard]] RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source,
                                            const Valid<Candidate>& candidate, const StreamOptions& options,
                                            Ranks& ranks);
 

@@ -31,7 +31,7 @@ void search(const char* what, const std::vector<Disc>& discs, const RaySource& s
   const StreamOptions options{.run = {.standard_error = true}};
   for (const Candidate& candidate :
        {Candidate{Technique::box_tree, BoxTreeParameters{}}, Candidate{Technique::octree, OctreeParameters{4}}}) {
-    const StreamedOutcome found = run_on_ranks(discs, source, candidate, options, ranks);
+    const StreamedOutcome found = run_on_ranks(discs, source, candidate, options, ranks).found;
     if (ranks.rank() == 0)
       std::printf("%s, %s: %llu hits, irradiance %016llx, errors %016llx\n", what,
                   std::string(name(candidate.technique)).c_str(),
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
     const Scene scene = open_scene({"@cornell", samples, 1, {}, {}});
     std::vector<Disc> on_surface;
     for (const Sample& sample : scene.samples) on_surface.push_back({sample.position, sample.normal, 0.05});
-    search("photon paths", on_surface, PhotonSource(scene, rays, 1), ranks);
+    search("photon paths", on_surface, PhotonSource(scene, rays, 1, caster_for(scene), {}, &ranks), ranks);
     if (ranks.rank() == 0)
       std::fprintf(stderr, "%.3f s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }

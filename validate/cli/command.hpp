@@ -13,6 +13,7 @@ namespace detp::cli {
 struct Command {
   CLI::App* app;
   std::function<Result(const CommonOptions&, std::stop_token)> run;
+  bool on_ranks = false;  ///< several processes may run it together: CommonOptions::ranks
 };
 
 [[nodiscard]] Command model_command(CLI::App& program);

@@ -13,6 +13,7 @@ Json envelope(const std::string& command, const CommonOptions& common, int threa
                         {"seed", common.seed},
                         {"threads", threads},
                         {"cpu", validate::this_machine().cpu}};
+  if (common.ranks != nullptr) json["provenance"]["ranks"] = common.ranks->count();
   return json;
 }
 

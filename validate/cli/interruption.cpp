@@ -74,6 +74,7 @@ void Interruption::request(bool by_limit) {
   Clock::time_point none{};
   if (requested_.compare_exchange_strong(none, Clock::now())) by_limit_ = by_limit;
   stop_.request_stop();
+  if (!by_limit) signalled_.request_stop();
 }
 
 }  // namespace detp::cli

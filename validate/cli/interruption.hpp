@@ -20,6 +20,8 @@ class Interruption {
   void limit(double seconds);
 
   [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
+  /// A stop that a signal requested, not the time limit.
+  [[nodiscard]] std::stop_token signal_token() const { return signalled_.get_token(); }
 
   /// The stop request came from the time limit.
   [[nodiscard]] bool by_limit() const { return by_limit_; }
@@ -37,6 +39,7 @@ class Interruption {
   std::atomic<Clock::time_point> requested_ = Clock::time_point{};
   std::atomic<bool> by_limit_ = false;
   std::stop_source stop_;
+  std::stop_source signalled_;
   std::jthread signals_;
   std::jthread clock_;
 };

@@ -1,3 +1,12 @@
 #include "program.hpp"
+#ifdef DETP_MPI
+#include "mpi_world.hpp"
+#endif
 
-int main(int argc, char** argv) { return detp::cli::run_program(argc, argv); }
+int main(int argc, char** argv) {
+#ifdef DETP_MPI
+  return detp::cli::run_program(argc, argv, detp::cli::join_mpi);
+#else
+  return detp::cli::run_program(argc, argv);
+#endif
+}

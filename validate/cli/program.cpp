@@ -12,6 +12,7 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/output_file.hpp"
+#include "detp/sim/ranks/failures.hpp"
 #include "detp/validate/cli/options/outputs.hpp"
 #include "detp/validate/cli/text/messages.hpp"
 #include "envelope.hpp"
@@ -59,6 +60,21 @@ Result result_of(const Command& command, const CommonOptions& common, const std:
   }
 }
 
+/// The options of this process. Throws std::invalid_argument if the command works on one process only.
+CommonOptions options_on(World* world, const Command& command, CommonOptions common) {
+  if (world == nullptr) return common;
+  if (!command.on_ranks)
+    throw std::invalid_argument(
+        fmt::format("detp {} works on one process; detp run, accuracy and validate work on several, as mpirun -n {}",
+                    command.app->get_name(), world->ranks().count()));
+  common.ranks = &world->ranks();
+  if (common.threads == 0) common.threads = world->cores();
+  if (common.answers()) return common;
+  common.output.reset();
+  common.quiet = true;
+  return common;
+}
+
 int run(const Command& command, const CommonOptions& common, Interruption& interruption) {
   if (common.memory_limit) set_memory_limit(*common.memory_limit);
   const int wanted = sim::thread_count(common.threads);
@@ -87,51 +103,102 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
   return static_cast<int>(result.not_reached ? ExitCode::stopped : result.code);
 }
 
-int guarded_main(int argc, char** argv) {
-  Interruption interruption;
+int guarded_main(int argc, char** argv, Interruption& interruption, World* world) {
   CommandLine line;
   if (argc <= 1) {
     write_result(line.overview());
     return 0;
   }
   try {
-    return run(line.parse(argc, argv), line.common(), interruption);
+    const Command& command = line.parse(argc, argv);
+    return run(command, options_on(world, command, line.common()), interruption);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
       line.exit(error);
       check_written();
       return 0;
     }
-    return fail(ExitCode::bad_input,
-                with_short_arguments(line.message(error), {argv, argv + argc}) + " (detp --help tells more)");
+    throw std::invalid_argument(line.message(error) + " (detp --help tells more)");
+  }
+}
+
+struct Failure {
+  ExitCode code;
+  std::string message;
+  bool all_tell = false;  ///< not rank 0 alone
+};
+
+/// What is being thrown.
+Failure current_failure(std::span<char* const> arguments) {
+  try {
+    throw;
+  } catch (const sim::FileError& error) {
+    return {ExitCode::bad_input, error.what()};
+  } catch (const std::invalid_argument& error) {
+    return {ExitCode::bad_input, with_short_arguments(error.what(), arguments)};
+  } catch (const std::length_error& error) {
+    return {ExitCode::bad_input, error.what()};
+  } catch (const std::overflow_error& error) {
+    return {ExitCode::bad_input, error.what()};
+  } catch (const sim::OutOfMemory& error) {
+    return {ExitCode::bad_input, std::string(error.what()) + "; fewer rays, samples or cells would fit"};
+  } catch (const std::bad_alloc&) {
+    return {ExitCode::bad_input, "out of memory; fewer rays, samples or cells would fit"};
+  } catch (const sim::RankSilent& error) {
+    return {ExitCode::internal, error.what(), true};
+  } catch (const sim::RankFailed& error) {
+    return {ExitCode::internal, error.what()};
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::resource_unavailable_try_again)
+      return {ExitCode::bad_input, "the system starts no thread; allow more processes (ulimit -u) or memory"};
+    return {ExitCode::internal, std::string("internal error: ") + error.what()};
+  } catch (const std::exception& error) {
+    return {ExitCode::internal, std::string("internal error: ") + error.what()};
+  }
+}
+
+int run_on(World& world, int argc, char** argv, Interruption& interruption) {
+  std::optional<Muted> muted;
+  if (world.ranks().rank() != 0) muted.emplace();
+  int code = 0;
+  std::string message;
+  try {
+    code = guarded_main(argc, argv, interruption, &world);
+  } catch (...) {
+    Failure failure = current_failure({argv, argv + argc});
+    code = static_cast<int>(failure.code);
+    message = std::move(failure.message);
+    if (failure.all_tell) muted.reset();
+    if (!muted) fail(failure.code, message);
+  }
+  world.end(message, code);
+  return code;
+}
+
+int run_alone(int argc, char** argv, Interruption& interruption) {
+  try {
+    return guarded_main(argc, argv, interruption, nullptr);
+  } catch (...) {
+    const Failure failure = current_failure({argv, argv + argc});
+    return fail(failure.code, failure.message);
   }
 }
 
 }  // namespace
 
-int run_program(int argc, char** argv) {
+int run_program(int argc, char** argv, const JoinWorld& join) {
   prepare_streams();
+  Interruption interruption;
+  if (const int processes = launched_processes(); processes > 1 && !join)
+    return fail(ExitCode::bad_input, fmt::format("{} processes were started together, but detp was built without MPI",
+                                                 processes));
   try {
-    return guarded_main(argc, argv);
-  } catch (const sim::FileError& error) {
-    return fail(ExitCode::bad_input, error.what());
-  } catch (const std::invalid_argument& error) {
-    return fail(ExitCode::bad_input, with_short_arguments(error.what(), {argv, argv + argc}));
-  } catch (const std::length_error& error) {
-    return fail(ExitCode::bad_input, error.what());
-  } catch (const std::overflow_error& error) {
-    return fail(ExitCode::bad_input, error.what());
-  } catch (const sim::OutOfMemory& error) {
-    return fail(ExitCode::bad_input, std::string(error.what()) + "; fewer rays, samples or cells would fit");
-  } catch (const std::bad_alloc&) {
-    return fail(ExitCode::bad_input, "out of memory; fewer rays, samples or cells would fit");
-  } catch (const std::system_error& error) {
-    if (error.code() == std::errc::resource_unavailable_try_again)
-      return fail(ExitCode::bad_input, "the system starts no thread; allow more processes (ulimit -u) or memory");
-    return fail(ExitCode::internal, std::string("internal error: ") + error.what());
+    if (const auto world = join ? join(interruption.signal_token()) : nullptr)
+      return run_on(*world, argc, argv, interruption);
   } catch (const std::exception& error) {
-    return fail(ExitCode::internal, std::string("internal error: ") + error.what());
+    return fail(ExitCode::internal, error.what());
   }
+  return run_alone(argc, argv, interruption);
 }
 
 }  // namespace detp::cli

@@ -232,7 +232,7 @@ class JobMaker {
       return;
     }
     const sim::Scene& scene = scene_for_photons();
-    job_.stream = std::make_unique<sim::PhotonSource>(scene, count, request_.seed, caster_, stop_);
+    job_.stream = std::make_unique<sim::PhotonSource>(scene, count, request_.seed, caster_, stop_, request_.ranks);
   }
 
   /// What is out of range must be refused here, not when the workload is measured.

@@ -13,6 +13,7 @@
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/effects/observe.hpp"
 #include "detp/sim/photons/ray_caster.hpp"
+#include "detp/sim/ranks/ranks.hpp"
 #include "detp/sim/rays/mixed_field.hpp"
 #include "detp/sim/rays/ray_source.hpp"
 #include "detp/sim/scene/scene.hpp"
@@ -59,6 +60,8 @@ struct JobRequest {
   bool stream = false;      ///< if the rays are not from a file and fill more than a block, do not keep them in memory
   bool keep_scene = false;  ///< the job keeps the scene: for estimators that look at triangles, and for more_rays
   int threads = 1;          ///< for checking rays and discs; 0: all cores
+  /// that make the same job together, counting the photons of a stream; null: this process alone
+  sim::Ranks* ranks = nullptr;
 
   /// True if the request has neither a scene nor a file, only the numbers of a workload.
   [[nodiscard]] bool numbers_alone() const { return !scene && !disc_file && !ray_file; }

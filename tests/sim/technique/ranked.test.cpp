@@ -136,8 +136,8 @@ TEST_SUITE("ranks") {
         CAPTURE(count);
         StreamedOutcome found;
         const auto thrown = on_ranks(count, [&](Ranks& ranks) {
-          StreamedOutcome own = run_on_ranks(discs, lines, techniques[i], options_of(true), ranks);
-          if (ranks.rank() == 0) found = std::move(own);
+          RankedOutcome own = run_on_ranks(discs, lines, techniques[i], options_of(true), ranks);
+          if (ranks.rank() == 0) found = std::move(own.found);
         });
         for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
         check_same(found, expected);
@@ -160,8 +160,8 @@ TEST_SUITE("ranks") {
         CHECK(together.size() == paths.size());
         CHECK(together.photons() == paths.photons());
         CHECK(together.farthest_from({0, 0, 0}) == paths.farthest_from({0, 0, 0}));
-        StreamedOutcome own = run_on_ranks(discs, together, techniques[0], options_of(false), ranks);
-        if (ranks.rank() == 0) found = std::move(own);
+        RankedOutcome own = run_on_ranks(discs, together, techniques[0], options_of(false), ranks);
+        if (ranks.rank() == 0) found = std::move(own.found);
       });
       for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
       check_same(found, expected);

@@ -11,7 +11,9 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/sim/files/writing_check.hpp"
+#include "detp/sim/ranks/failures.hpp"
 #include "detp/validate/base/search_work.hpp"
+#include "detp/validate/choice/candidate_json.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
@@ -116,6 +118,15 @@ Requested requested(const CandidateOptions& options, sim::Estimator estimator, c
           sim::thread_count(threads)};
 }
 
+/// What rank 0 would run, on all ranks.
+Requested agreed(sim::Ranks& ranks, const std::function<Requested()>& of_first) {
+  const Json json = Json::parse(sim::from_first(ranks, [&] {
+    const Requested choice = of_first();
+    return Json{{"technique", name(choice.candidate.technique)}, {"parameters", to_json(choice.candidate)}, {"threads", choice.threads}}.dump();
+  }));
+  return {candidate_of(parse_technique(json.at("technique")), json.at("parameters")), json.at("threads")};
+}
+
 sim::EstimateRequest request_of(const RunAnswer& answer, const validate::Job& job) {
   sim::EstimateRequest request{
       .estimator = answer.estimator, .candidate = answer.candidate, .mesh = job.scene ? &job.scene->mesh : nullptr};
@@ -161,7 +172,7 @@ void write_per_disc(const std::string& path, const sim::Outcome& outcome, const 
   file.commit();
 }
 
-void check_files(const RunOptions& options, const CommonOptions& common, std::size_t rows) {
+void check_options(const RunOptions& options, std::size_t rows) {
   if (rows > 1 && (options.per_disc || options.pairs))
     throw std::invalid_argument("--per-disc and --pairs write the hits of one run; give one value for each option");
   if (options.standard_error && !options.per_disc)
@@ -175,6 +186,9 @@ void check_files(const RunOptions& options, const CommonOptions& common, std::si
     throw std::invalid_argument("--checkpoint keeps one run with --target-noise or --target-error");
   if (options.target.resume && !options.target.checkpoint)
     throw std::invalid_argument("--resume needs the --checkpoint FILE to continue from");
+}
+
+void check_files(const RunOptions& options, const CommonOptions& common) {
   check_outputs({{"--output", common.output},
                  {"--per-disc", options.per_disc},
                  {"--pairs", options.pairs},
@@ -254,11 +268,13 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
                                     .stop = stop};
   const sim::Estimator estimator = estimator_of(options);
   const bool searches = sim::record_of(estimator).finds_pairs;
+  const bool shared = common.ranks != nullptr && job.stream && searches;
+  if (!shared && !common.answers()) return {};
   const bool by_pilot =
       searches && !options.candidate.technique && validate::reachable_rigor(question, costs) == Rigor::pilot;
   const CostTable priced = validate::costs_for(question, costs);
-  const Requested choice =
-      by_pilot ? Requested{} : requested(options.candidate, estimator, job, priced, common.threads);
+  const auto by_options = [&] { return requested(options.candidate, estimator, job, priced, common.threads); };
+  const Requested choice = by_pilot ? Requested{} : shared ? agreed(*common.ranks, by_options) : by_options();
   RunAnswer answer{.candidate = choice.candidate,
                    .estimator = estimator,
                    .threads = choice.threads,
@@ -284,12 +300,12 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
     answer.run.rays_in_memory = job.rays.size();
     choose_and_run(answer, question, costs, run, sim::part_of(progress, 0, share_of_first));
   } else {
-    answer.run = run_job(job, request_of(answer, job), run, sim::part_of(progress, 0, share_of_first));
+    answer.run = run_job(job, request_of(answer, job), run, sim::part_of(progress, 0, share_of_first), shared ? common.ranks : nullptr);
   }
   run.threads = answer.threads;
   run.count = run.pairs = false;
   answer.timing = time_runs(job, request_of(answer, job), answer.run, answer.run.outcome.stopped ? 0 : options.repeat,
-                            run, sim::part_of(progress, share_of_first, 1));
+                            run, sim::part_of(progress, share_of_first, 1), shared ? common.ranks : nullptr);
   return answer;
 }
 
@@ -332,7 +348,8 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   ValueLists& problems = options.workload.lists;
   ValueLists& candidates = options.candidate.lists;
   const std::size_t expected = rows_in(problems, candidates);
-  check_files(options, common, expected);
+  check_options(options, expected);
+  if (common.answers()) check_files(options, common);
   const Needs needs = needs_of(options, candidates.rows());
   const CostsInUse costs = options.costs.costs(common);
   const ProgressLine progress(common.quiet);
@@ -349,16 +366,18 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     if (options.target.given() && !request.ray_file) request.rays = first_rays(request.rays);
     request.stream = !needs.all_rays;
     request.keep_scene = needs.scene;
+    request.ranks = common.ranks;
     validate::Job job = validate::make_job(request, stop, rows.job(progress.report()));
     note_all(common, job);
     if (options.standard_error && request.ray_file && !job.numbered())
       note(common, "standard errors: the rays have no column photon, so each ray counts as a photon of its own");
-    if (!is_short) inputs = to_json(job, request);
+    if (!is_short && common.answers()) inputs = to_json(job, request);
     return job;
   };
   const auto answer = [&](const validate::Job& job) {
     const RunAnswer found =
         run_one(options, job, costs.of(options.candidate.engine), common, stop, rows.next(progress.report()));
+    if (!common.answers()) return AnswerRow{};
     stopped = write_hits(options, job, found, common, stop);
     not_reached = found.until && found.until->result.reason != validate::StopReason::target;
     if (expected == 1) text = to_text(job, found, common.screen(), options.verbose);
@@ -374,8 +393,9 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     }
     return run_row(inputs, job, found);
   };
-  Result result = result_of(answer_all(problems, candidates, stop, prepare, answer), expected, run_columns(),
-                            run_text_columns(common.screen()));
+  const std::vector<AnswerRow> answers = answer_all(problems, candidates, stop, prepare, answer);
+  if (!common.answers()) return {};
+  Result result = result_of(answers, expected, run_columns(), run_text_columns(common.screen()));
   if (expected == 1) {
     result.text = text;
     result.stopped = stopped;
@@ -428,7 +448,8 @@ Command run_command(CLI::App& program) {
   app->add_flag("--resume", options->target.resume, "go on from the checkpoint; default: begin anew");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_run(*options, common, stop);
-          }};
+          },
+          true};
 }
 
 }  // namespace detp::cli

@@ -9,6 +9,7 @@
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/rank/registry.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/sim/technique/ranked.hpp"
 #include "detp/validate/calibration/sum_costs.hpp"
 #include "detp/validate/cli/options/sphere_stops.hpp"
 #include "detp/validate/cli/report/columns.hpp"
@@ -142,7 +143,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
         price(*predicted, answer.costs, answer.candidate.technique, sim::useful_threads(answer.threads)).total();
     const double errors =
         answer.standard_error ? validate::standard_error_seconds(predicted->hits, job.numbered(), answer.costs) : 0;
-    json["predicted_seconds"] = search + errors;
+    json["predicted_seconds"] = (search + errors) / static_cast<double>(std::max<std::size_t>(1, answer.run.rank_seconds.size()));
   }
   json.update({{"seconds", seconds_json(answer.timing, answer.repeat)},
                {"read_seconds", job.read_seconds},
@@ -151,6 +152,8 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                {"effects", to_json(job.observed().effects)},
                {"warnings", job.warnings},
                {"stopped", outcome.stopped}});
+  if (const auto& seconds = answer.run.rank_seconds; !seconds.empty())
+    json["ranks"] = {{"count", seconds.size()}, {"seconds", seconds}, {"imbalance", sim::imbalance(seconds)}};
   if (answer.until && answer.until->result.reason == validate::StopReason::time) json["stopped"] = true;
   return json;
 }
@@ -311,6 +314,10 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
                   "reading {:.3g}, making rays {:.3g}",
                   timing.total(), timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
                   repeats_text(timing), job.read_seconds, job.trace_seconds + answer.run.trace_seconds));
+  if (const auto& seconds = answer.run.rank_seconds; !seconds.empty())
+    add(fmt::format("ranks     {} processes, {:.3g} to {:.3g} s each; the slowest took {:.2g} % more than the mean",
+                    seconds.size(), *std::ranges::min_element(seconds), *std::ranges::max_element(seconds),
+                    100 * sim::imbalance(seconds)));
   return verbose ? text + "\n" + counts_table(job, answer, screen) : text;
 }
 

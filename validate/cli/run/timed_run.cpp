@@ -5,6 +5,7 @@
 
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/rank/registry.hpp"
+#include "detp/sim/technique/ranked.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/base/search_work.hpp"
 
@@ -26,7 +27,7 @@ double predicted_work(const Workload& workload, const Candidate& candidate, Engi
 }  // namespace
 
 TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, const sim::RunOptions& options,
-                 const sim::ReportPhase& progress) {
+                 const sim::ReportPhase& progress, sim::Ranks* ranks) {
   const Candidate& candidate = request.candidate;
   const bool pairs = record_of(request.estimator).finds_pairs;
   const std::string doing(pairs ? name(candidate.technique) : name(request.estimator));
@@ -40,19 +41,23 @@ TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, 
   sim::RunOptions reporting = options;
   if (progress && work == 0) reporting.progress = [&](double share) { progress({doing, share, share}); };
   if (job.stream) {
-    sim::StreamedOutcome streamed = sim::run_streamed(
-        job.discs, *job.stream, candidate, {.run = reporting, .front_facing = job.front_facing, .progress = show});
-    return {std::move(streamed.outcome), streamed.check_seconds, streamed.read_seconds, streamed.block};
+    sim::OneRank one;
+    sim::RankedOutcome ranked =
+        sim::run_on_ranks(job.discs, *job.stream, candidate,
+                          {.run = reporting, .front_facing = job.front_facing, .progress = show}, ranks ? *ranks : one);
+    sim::StreamedOutcome& streamed = ranked.found;
+    return {std::move(streamed.outcome), streamed.check_seconds, streamed.read_seconds, streamed.block,
+            std::move(ranked.seconds)};
   }
   return {sim::estimate(job.problem(), request, reporting), job.check_seconds, 0, job.rays.size()};
 }
 
 Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const TimedRun& counted, int repeat,
-                 const sim::RunOptions& options, const sim::ReportPhase& progress) {
+                 const sim::RunOptions& options, const sim::ReportPhase& progress, sim::Ranks* ranks) {
   std::vector<Timing> timings;
   const double each = 1.0 / std::max(1, repeat);
   for (int i = 0; i < repeat; ++i) {
-    const TimedRun run = run_job(job, request, options, sim::part_of(progress, i * each, (i + 1) * each));
+    const TimedRun run = run_job(job, request, options, sim::part_of(progress, i * each, (i + 1) * each), ranks);
     if (run.outcome.stopped) break;
     timings.push_back({run.outcome.seconds, run.prepare_seconds, {}});
   }

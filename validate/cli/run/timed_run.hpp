@@ -15,11 +15,14 @@ struct TimedRun {
   double prepare_seconds = 0;      ///< time for checking rays and discs, and for S₀
   double trace_seconds = 0;        ///< time for making the rays of a stream
   std::size_t rays_in_memory = 0;  ///< maximum number of rays in memory at a time
+  std::vector<double> rank_seconds = {};  ///< of each rank (sim::RankedOutcome); empty if one process searched
 };
 
-/// Runs the estimator; the rays of a stream by its technique, which finds pairs.
+/// Runs the estimator; the rays of a stream by its technique, which finds pairs. Ranks share the rays of a stream; on all but rank 0 the
+/// outcome is that of run_on_ranks there. Other searches do not know of ranks.
 [[nodiscard]] TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request,
-                               const sim::RunOptions& options, const sim::ReportPhase& progress);
+                               const sim::RunOptions& options, const sim::ReportPhase& progress,
+                               sim::Ranks* ranks = nullptr);
 
 /// Times from discs and rays in memory to irradiance in memory, in seconds.
 struct Timing {
@@ -34,6 +37,7 @@ struct Timing {
 /// of the counting run. The phases returned are those of the run with the median time, or for an even number of runs,
 /// of the slower of the two middle runs.
 [[nodiscard]] Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const TimedRun& counted,
-                               int repeat, const sim::RunOptions& options, const sim::ReportPhase& progress);
+                               int repeat, const sim::RunOptions& options, const sim::ReportPhase& progress,
+                               sim::Ranks* ranks = nullptr);
 
 }  // namespace detp::cli

@@ -54,6 +54,21 @@ void write_error(std::string_view text) {
   (void)std::fflush(stderr);
 }
 
+Muted::Muted() : out_(::dup(STDOUT_FILENO)), error_(::dup(STDERR_FILENO)) {
+  const int nowhere = ::open("/dev/null", O_WRONLY);
+  ::dup2(nowhere, STDOUT_FILENO);
+  ::dup2(nowhere, STDERR_FILENO);
+  ::close(nowhere);
+}
+
+Muted::~Muted() {
+  (void)std::fflush(stdout);
+  ::dup2(out_, STDOUT_FILENO);
+  ::dup2(error_, STDERR_FILENO);
+  ::close(out_);
+  ::close(error_);
+}
+
 int fail(ExitCode code, std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   write_error("detp: " + shortened(message, longest_message) + "\n");

@@ -23,6 +23,19 @@ void check_written();
 /// Writes to stderr. Ignores errors, because they cannot be reported.
 void write_error(std::string_view text);
 
+/// While it exists, what is written to stdout and stderr is lost.
+class Muted {
+ public:
+  Muted();
+  ~Muted();
+  Muted(const Muted&) = delete;
+  Muted& operator=(const Muted&) = delete;
+
+ private:
+  int out_;  ///< descriptors of the real streams
+  int error_;
+};
+
 /// Writes the message to stderr as one line of at most 500 characters, made safe to show. Returns the code.
 int fail(ExitCode code, std::string message);
 

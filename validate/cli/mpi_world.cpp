@@ -1,0 +1,52 @@
+#include "mpi_world.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <thread>
+
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/ranks/mpi_ranks.hpp"
+
+namespace detp::cli {
+namespace {
+
+class MpiWorld final : public World {
+ public:
+  explicit MpiWorld(const std::stop_token& by_signal) : ranks_((initialize(), MPI_COMM_WORLD), by_signal) {
+    MPI_Comm machine;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    MPI_Comm_size(machine, &on_this_machine_);
+    MPI_Comm_free(&machine);
+  }
+
+  [[nodiscard]] sim::Ranks& ranks() override { return ranks_; }
+
+  [[nodiscard]] int cores() const override {
+    const int all = static_cast<int>(std::thread::hardware_concurrency());
+    return std::clamp(all / on_this_machine_, 1, sim::thread_count(0));
+  }
+
+  void end(const std::string& message, int code) override {
+    if (!ranks_.end(message)) MPI_Abort(MPI_COMM_WORLD, code);
+    MPI_Finalize();
+  }
+
+ private:
+  static void initialize() {
+    int provided = 0;
+    if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS)
+      throw std::runtime_error("MPI cannot be initialized");
+  }
+
+  sim::MpiRanks ranks_;
+  int on_this_machine_ = 1;
+};
+
+}  // namespace
+
+std::unique_ptr<World> join_mpi(const std::stop_token& by_signal) {
+  if (launched_processes() == 1) return nullptr;
+  return std::make_unique<MpiWorld>(by_signal);
+}
+
+}  // namespace detp::cli

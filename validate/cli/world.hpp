@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "detp/sim/ranks/ranks.hpp"
+
+namespace detp::cli {
+
+/// The processes that run the same command together.
+class World {
+ public:
+  virtual ~World() = default;
+
+  [[nodiscard]] virtual sim::Ranks& ranks() = 0;
+  /// This process's share of its machine's cores.
+  [[nodiscard]] virtual int cores() const = 0;
+  /// The last call; as sim::MpiRanks::end. Does not return if another process is given up: ends this one with the code.
+  virtual void end(const std::string& message, int code) = 0;
+};
+
+/// Joins the other processes, if there are any; else returns null. `by_signal`: a stop that a signal requested.
+using JoinWorld = std::function<std::unique_ptr<World>(const std::stop_token& by_signal)>;
+
+/// Number of processes that a launcher of MPI started together, by its variables; 1 without one.
+[[nodiscard]] int launched_processes();
+
+}  // namespace detp::cli
