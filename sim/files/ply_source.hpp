@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "input_file.hpp"
 #include "number_text.hpp"
 #include "ply_header.hpp"
+#include "ply_number.hpp"
 
 /// The numbers of a PLY file's body in sequence.
 namespace detp::sim {
@@ -79,25 +79,9 @@ class PlyBytes {
 
   std::optional<double> next(PlyType type) {
     if (!file_.fetch(size_of(type))) return std::nullopt;
-    switch (type) {
-      case PlyType::int8:
-        return read_binary<std::int8_t>();
-      case PlyType::uint8:
-        return read_binary<std::uint8_t>();
-      case PlyType::int16:
-        return read_binary<std::int16_t>();
-      case PlyType::uint16:
-        return read_binary<std::uint16_t>();
-      case PlyType::int32:
-        return read_binary<std::int32_t>();
-      case PlyType::uint32:
-        return read_binary<std::uint32_t>();
-      case PlyType::float32:
-        return read_binary<float>();
-      case PlyType::float64:
-        return read_binary<double>();
-    }
-    return std::nullopt;
+    const double number = ply_number(file_.buffered().data(), type, swapped_);
+    file_.skip(size_of(type));
+    return number;
   }
 
   [[nodiscard]] static std::string missing_number_reason(const std::string&) { return "the file ends early"; }
@@ -107,15 +91,6 @@ class PlyBytes {
   [[nodiscard]] static std::string where() { return {}; }
 
  private:
-  template <class Number>
-  double read_binary() {
-    std::array<char, sizeof(Number)> bytes;
-    std::copy_n(file_.buffered().begin(), sizeof(Number), bytes.begin());
-    if (swapped_) std::reverse(bytes.begin(), bytes.end());
-    file_.skip(sizeof(Number));
-    return static_cast<double>(std::bit_cast<Number>(bytes));
-  }
-
   InputFile& file_;
   bool swapped_;
 };

@@ -3,51 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
 
 #include "detp/sim/base/kept_memory.hpp"
-#include "detp/sim/geometry/unit_vector.hpp"
 #include "file_error.hpp"
 #include "output_file.hpp"
-#include "table.hpp"
+#include "ray_row.hpp"
 #include "writing_check.hpp"
 
 namespace detp::sim {
 namespace {
-
-enum Column : std::size_t { ox, oy, oz, dx, dy, dz, length, power, photon, landing };
-
-constexpr double at_end = std::numeric_limits<double>::lowest();  ///< landing at the ray's end
-
-Ray ray_in(const TableRow& row) {
-  const Ray ray{.origin = row.finite_vector(ox),
-                .direction = unit_or_zero(row.finite_vector(dx)),
-                .length = row[length],
-                .power = row.finite(power)};
-  if (ray.direction == glm::dvec3{0.0}) row.fail("the direction is zero; it needs a length");
-  if (!(ray.length > 0)) row.fail(fmt::format("length must be > 0, or inf for a line (got {})", ray.length));
-  if (ray.power < 0) row.fail(fmt::format("power must be >= 0 and finite (got {})", ray.power));
-  return ray;
-}
-
-std::uint64_t photon_in(const TableRow& row) {
-  constexpr double most = 0x1p53;
-  const double number = row.finite(photon);
-  if (number < 0 || number > most || number != std::floor(number))
-    row.fail(fmt::format("photon must be a whole number from 0 to 2^53 (got {})", number));
-  return static_cast<std::uint64_t>(number);
-}
-
-double landing_in(const TableRow& row, const Ray& ray) {
-  const double at = row[landing];
-  if (at == at_end) return ray.length;
-  if (!(at >= 0)) row.fail(fmt::format("landing must be >= 0, or inf for none (got {})", at));
-  return at;
-}
 
 /// Brings the rays of each photon together.
 void sort_by_photon(RayFile& file) {
@@ -86,22 +53,12 @@ RayFile read_rays(const std::string& path, std::stop_token stop) {
   RayFile file;
   KeptMemory memory(path);
   read_table(
-      path,
-      {{"ox", {}, {}},
-       {"oy", {}, {}},
-       {"oz", {}, {}},
-       {"dx", {}, {}},
-       {"dy", {}, {}},
-       {"dz", {}, {}},
-       {"length", unbounded, unbounded},
-       {"power", 1.0, {}},
-       {"photon", 0.0, {}},
-       {"landing", at_end, at_end}},
+      path, ray_columns(),
       [&](const TableRow& row) {
         const Ray ray = ray_in(row);
         memory.push(file.paths.rays, ray);
-        if (row.given(photon)) memory.push(file.paths.photons, photon_in(row));
-        if (row.given(landing)) memory.push(file.paths.landings, landing_in(row, ray));
+        if (row.given(ray_column::photon)) memory.push(file.paths.photons, photon_in(row));
+        if (row.given(ray_column::landing)) memory.push(file.paths.landings, landing_in(row, ray));
       },
       std::move(stop));
   if (file.paths.rays.empty()) throw FileError(path, "has no ray; at least one is needed");

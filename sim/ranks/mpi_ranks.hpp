@@ -50,7 +50,7 @@ class MpiRanks final : public Ranks {
   }
 
   /// The last call on each rank. `message`: why this rank failed; empty if it did not. Another rank that is waiting throws RankFailed with
-  /// the message. Returns true when all have called this; false if one is given up.
+  /// the message. Returns true when all have called this; false on rank 0 if another is given up.
   [[nodiscard]] bool end(const std::string& message) {
     try {
       for (int other = 0; other < count_; ++other)
@@ -59,7 +59,7 @@ class MpiRanks final : public Ranks {
         if (is_partner(other)) wait_until([&] { return ended(other); }, other, [] {});
       return true;
     } catch (const RankSilent&) {
-      return false;
+      return rank_ != 0;  // rank 0 may still be writing
     }
   }
 
@@ -110,13 +110,14 @@ class MpiRanks final : public Ranks {
   void wait_until(const Done& done, int other, const Watch& watch) {
     constexpr auto often = std::chrono::microseconds(200);
     constexpr auto longest = std::chrono::microseconds(1000);
+    const double patience = rank_ == 0 ? patience_ : 1.5 * patience_;  // rank 0 knows who is silent
     const Clock::time_point begin = Clock::now();
     Clock::time_point stopped{};
     while (!done()) {
       const Clock::time_point now = Clock::now();
       watch();
       if (stop_.stop_requested() && stopped == Clock::time_point{}) stopped = now;
-      if (stopped != Clock::time_point{} && std::chrono::duration<double>(now - stopped).count() > patience_)
+      if (stopped != Clock::time_point{} && std::chrono::duration<double>(now - stopped).count() > patience)
         throw RankSilent(other);
       if (now - begin < often)
         std::this_thread::yield();

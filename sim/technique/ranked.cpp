@@ -127,7 +127,7 @@ double imbalance(std::span<const double> seconds) {
 }
 
 RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
-                             const StreamOptions& options, Ranks& ranks) {
+                           const StreamOptions& options, Ranks& ranks) {
   if (ranks.count() == 1) return {run_streamed(discs, source, candidate, options)};
   const Stopwatch watch;
   double own_seconds = 0;

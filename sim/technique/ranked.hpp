@@ -33,7 +33,6 @@ struct RankedOutcome {
 /// Stopped on some ranks, the outcome has the hits of the shares before the first that was stopped, and that one's own. What fails on one rank
 /// throws on all: there what was thrown, RankFailed elsewhere.
 [[nodiscard]] RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source,
-                                           const Valid<Candidate>& candidate, const StreamOptions& options,
-                                           Ranks& ranks);
+                                         const Valid<Candidate>& candidate, const StreamOptions& options, Ranks& ranks);
 
 }  // namespace detp::sim

@@ -64,7 +64,7 @@ const Outcome& Searcher::search(const RaysView& rays, SearchScratch& scratch, co
 }
 
 std::size_t Searcher::piece(Engine engine) const {
-  constexpr std::size_t rays = std::size_t{1} << 18;  // a multiple of rays_in_block
+  constexpr std::size_t rays = std::size_t{1} << 18;
   if (index_->sorts_rays()) return std::numeric_limits<std::size_t>::max();
   return engine == Engine::simd ? rays : default_block(problem_.discs().size());
 }

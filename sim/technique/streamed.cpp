@@ -116,7 +116,7 @@ class StreamedSearch {
 std::size_t default_block(std::size_t discs) {
   constexpr std::size_t least = std::size_t{1} << 20;
   constexpr std::size_t most = std::size_t{1} << 22;
-  return std::bit_ceil(std::clamp(discs, least, most));
+  return std::bit_ceil(std::clamp(4 * std::min(discs, most), least, most));
 }
 
 StreamedOutcome run_streamed(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,

@@ -5,10 +5,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "accuracy_json.hpp"
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/ranks/farm.hpp"
 #include "judged_samples.hpp"
 
 namespace detp::validate {
@@ -67,6 +69,74 @@ TimedEstimate timed_estimate(ReplicateMaker& maker, const sim::Scene& scene, con
   return run;
 }
 
+/// What a rank makes in a rerun.
+struct RerunTask {
+  AccuracySetting setting;
+  double rays = 0;
+  std::uint64_t seed = 0;
+};
+struct RerunResult {
+  double seconds = 0;
+  std::vector<double> irradiance;  ///< at the judged samples
+};
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RerunTask, setting, rays, seed)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RerunResult, seconds, irradiance)
+
+std::string bytes_of(const nlohmann::json& json) {
+  std::string bytes;
+  nlohmann::json::to_cbor(json, bytes);
+  return bytes;
+}
+
+/// Makes reruns on one process or on ranks.
+class RerunMaker {
+ public:
+  RerunMaker(sim::Scene& scene, const AccuracyPilotOptions& options)
+      : scene_(scene),
+        options_(options),
+        judged_(judged_samples(scene, options.reference, most_samples_kept)),
+        work_([this](const std::string& task) {
+          return bytes_of(make(nlohmann::json::from_cbor(task).get<RerunTask>()));
+        }),
+        farm_(options.ranks != nullptr ? *options.ranks : one_, work_) {}
+
+  [[nodiscard]] const JudgedSamples& judged() const { return judged_; }
+  [[nodiscard]] std::uint64_t at_once() const {
+    return options_.ranks == nullptr ? 1 : static_cast<std::uint64_t>(options_.ranks->count());
+  }
+
+  /// With the seeds first … last - 1.
+  [[nodiscard]] std::vector<RerunResult> make(const AccuracyPoint& point, std::uint64_t first, std::uint64_t last) {
+    std::vector<std::string> tasks;
+    for (std::uint64_t seed = first; seed < last; ++seed)
+      tasks.push_back(bytes_of(RerunTask{point.setting(), point.rays, seed}));
+    std::vector<RerunResult> results;
+    for (const std::string& result : farm_.all(tasks))
+      results.push_back(nlohmann::json::from_cbor(result).get<RerunResult>());
+    return results;
+  }
+
+  void serve() { farm_.serve(); }
+
+ private:
+  [[nodiscard]] RerunResult make(const RerunTask& task) {
+    ReplicateMaker maker(scene_, options_.front_facing, options_.threads, options_.stop);
+    const AccuracyPoint point{.estimator = task.setting.estimator,
+                              .rays = task.rays,
+                              .radius = task.setting.radius,
+                              .nearest = task.setting.nearest};
+    TimedEstimate run = timed_estimate(maker, scene_, judged_, point, task.seed);
+    return {run.seconds, std::move(run.irradiance)};
+  }
+
+  sim::Scene& scene_;
+  const AccuracyPilotOptions& options_;
+  JudgedSamples judged_;
+  sim::OneRank one_;
+  sim::Farm::Work work_;
+  sim::Farm farm_;
+};
+
 }  // namespace
 
 AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, double mean_square,
@@ -116,7 +186,8 @@ std::vector<AccuracyRerun> rerun_accuracy(sim::Scene& scene, const AccuracyPoint
                                           const std::function<void(const std::vector<MadeRerun>&)>& save) {
   const sim::DefaultFloatingPoint mode;
   const std::uint64_t count = check_seeds(first, last);
-  const JudgedSamples judged = judged_samples(scene, options.reference, most_samples_kept);
+  RerunMaker maker(scene, options);
+  const JudgedSamples& judged = maker.judged();
   for (std::size_t i = 0; i < made.size(); ++i)
     if (made.size() > count || made[i].seed != first + i || made[i].irradiance.size() != judged.samples.size())
       throw std::invalid_argument("runs that were made with other seeds, or at other samples");
@@ -124,11 +195,11 @@ std::vector<AccuracyRerun> rerun_accuracy(sim::Scene& scene, const AccuracyPoint
     while (made.size() < count) {
       if (options.progress)
         options.progress({"runs", static_cast<double>(made.size()) / static_cast<double>(count), 1});
-      ReplicateMaker maker(scene, options.front_facing, options.threads, options.stop);
-      const std::uint64_t seed = first + made.size();
-      TimedEstimate run = timed_estimate(maker, scene, judged, point, seed);
-      const auto error = error_of(run.irradiance, options.reference, mean_square);
-      made.push_back({seed, run.seconds, error, std::move(run.irradiance)});
+      const std::uint64_t next = first + made.size();
+      for (RerunResult& run : maker.make(point, next, std::min(first + count, next + maker.at_once()))) {
+        const auto error = error_of(run.irradiance, options.reference, mean_square);
+        made.push_back({first + made.size(), run.seconds, error, std::move(run.irradiance)});
+      }
       if (save) save(made);
     }
   } catch (const sim::Stopped&) {  // the runs made so far answer
@@ -144,6 +215,11 @@ std::vector<AccuracyRerun> rerun_accuracy(sim::Scene& scene, const AccuracyPoint
     reruns.push_back({run.seed, std::sqrt(square * runs / (runs - 1)), run.seconds, run.error});
   }
   return reruns;
+}
+
+void serve_reruns(sim::Scene& scene, const AccuracyPilotOptions& options) {
+  const sim::DefaultFloatingPoint mode;
+  RerunMaker(scene, options).serve();
 }
 
 }  // namespace detp::validate

@@ -51,11 +51,15 @@ struct MadeRerun {
 std::uint64_t check_seeds(std::uint64_t first, std::uint64_t last);
 
 /// Runs a point with the seeds from `first` to `last`, of which `made` are the first. Noise is taken at up to 2000 of the samples. Ends
-/// early, with the runs made so far, on a stop request. Calls `save` after each run. Throws as check_seeds and sim::estimate, and
+/// early, with the runs made so far, on a stop request. Calls `save` after each run, or as many as there are
+/// ranks, which share the runs. Throws as check_seeds and sim::estimate, and
 /// std::invalid_argument if runs that were made are not the first ones, or at other samples.
 [[nodiscard]] std::vector<AccuracyRerun> rerun_accuracy(
     sim::Scene& scene, const AccuracyPoint& point, double mean_square, std::uint64_t first, std::uint64_t last,
     const AccuracyPilotOptions& options, std::vector<MadeRerun> made = {},
     const std::function<void(const std::vector<MadeRerun>&)>& save = {});
+
+/// On ranks other than 0 of options.ranks: makes the runs that rerun_accuracy on rank 0 hands out, until it has all.
+void serve_reruns(sim::Scene& scene, const AccuracyPilotOptions& options);
 
 }  // namespace detp::validate

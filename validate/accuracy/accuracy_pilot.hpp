@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "detp/sim/base/phase.hpp"
+#include "detp/sim/ranks/ranks.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "reference.hpp"
 #include "replicates.hpp"
@@ -81,6 +82,7 @@ struct AccuracyPilotOptions {
   int threads = 0;
   std::stop_token stop = {};
   sim::ReportPhase progress = {};
+  sim::Ranks* ranks = nullptr;  ///< that have the same scene and reference, and share reruns; null: this process alone
 };
 
 /// Radii are h/4, h/2, h and 2h, h the mean edge of the triangles, unless others are given. Six runs of independent photons at up to 2000 of the scene's samples, weighted

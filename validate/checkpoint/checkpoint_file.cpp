@@ -12,7 +12,7 @@ namespace detp::validate {
 namespace {
 
 constexpr std::string_view schema = "detp.checkpoint";
-constexpr int version = 2;
+constexpr int version = 3;
 constexpr std::size_t most_bytes = std::size_t{1} << 32;
 constexpr double times_cheaper = 100;
 constexpr double first_seconds = 0.1;

@@ -8,6 +8,7 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/geometry/geometry.hpp"
+#include "detp/sim/ranks/ranks.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
 /// Claims: predictions of formulas, compared with counts.
@@ -69,6 +70,7 @@ struct Experiment {
   std::optional<ChoiceQuestion> choice = {};  ///< if the experiment is on a scene
   std::uint64_t seed = 1;
   std::stop_token stop = {};
+  sim::Ranks* ranks = nullptr;  ///< that have the same experiment; null: this process alone
 };
 
 /// Judges all predictions of all findings. The probability of any false verdict in the result is below `budget`.

@@ -1,10 +1,12 @@
 #include "experiments.hpp"
 
+#include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 #include "detp/sim/base/floating_point.hpp"
-#include "detp/sim/base/stopped.hpp"
+#include "shared_findings.hpp"
 
 namespace detp::validate {
 
@@ -19,19 +21,6 @@ constexpr std::array steps_of_all{
     ExperimentStep{"index", "index of discs", disc_index_findings, disc_index_work, 7.5, true},
     ExperimentStep{"errors", "errors of estimates", accuracy_findings, accuracy_work, 1, true}};
 
-/// Returns false if a stop request ended the experiment.
-bool add_findings(std::vector<Finding> (*run)(const Experiment&), const Experiment& experiment,
-                  std::vector<Finding>& findings) {
-  try {
-    std::vector<Finding> found = run(experiment);
-    if (found.empty() && experiment.stop.stop_requested()) return false;
-    for (Finding& finding : found) findings.push_back(std::move(finding));
-    return true;
-  } catch (const sim::Stopped&) {
-    return false;
-  }
-}
-
 }  // namespace
 
 std::span<const ExperimentStep> experiment_steps() { return steps_of_all; }
@@ -39,24 +28,36 @@ std::span<const ExperimentStep> experiment_steps() { return steps_of_all; }
 std::vector<Finding> all_findings(const Experiment& experiment, const sim::ReportPhase& progress, sim::Progress* done,
                                   std::span<const ExperimentStep> steps) {
   const sim::DefaultFloatingPoint mode;
-  std::vector<double> work(steps.size());
+  std::vector<double> costs;
   double whole = 0;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    work[i] = progress ? steps[i].work(experiment) : 0;
-    whole += work[i] * steps[i].unit_time;
-  }
+  for (const ExperimentStep& step : steps) whole += costs.emplace_back(step.work(experiment) * step.unit_time);
+  SharedFindings shared(experiment, steps);
+  const bool alone = shared.at_once() == 1;
   std::vector<Finding> findings;
   std::uint64_t experiments = 0;
   double share = 0;
-  for (const ExperimentStep& step : steps) {
+  while (experiments < steps.size()) {  // one after another, or all at once
+    const std::size_t end = alone ? experiments + 1 : steps.size();
+    std::vector<Repetition> next;
+    for (std::size_t i = experiments; i < end; ++i) next.push_back({i, 0});
     const double before = share;
-    share += whole > 0 ? work[experiments] * step.unit_time / whole : 0;
-    if (progress) progress({step.name, before, share, work[experiments]});
-    if (!add_findings(step.run, experiment, findings)) break;
-    ++experiments;
+    share = std::accumulate(costs.begin(), costs.begin() + static_cast<std::ptrdiff_t>(end), 0.0) / whole;
+    const ExperimentStep& first = steps[experiments];
+    if (progress)
+      progress({alone ? first.name : "all experiments", before, share, costs[experiments] / first.unit_time});
+    std::vector<FoundOnce> found = shared.find(next, alone ? std::vector<double>{} : costs);
+    const auto finished = std::ranges::find(found, true, &FoundOnce::stopped);
+    for (auto one = found.begin(); one != finished; ++one, ++experiments)
+      for (Finding& finding : one->findings) findings.push_back(std::move(finding));
+    if (finished != found.end()) break;
   }
   if (done != nullptr) *done = {experiments, steps.size(), "experiments"};
   return findings;
+}
+
+void serve_findings(const Experiment& experiment, std::span<const ExperimentStep> steps) {
+  const sim::DefaultFloatingPoint mode;
+  SharedFindings(experiment, steps).serve();
 }
 
 }  // namespace detp::validate

@@ -62,9 +62,12 @@ struct ExperimentStep {
 [[nodiscard]] std::span<const ExperimentStep> experiment_steps();
 
 /// The findings of these experiments, or of those that were finished before a stop request. Sets `done`, if not
-/// null, to the number of finished experiments.
+/// null, to the number of finished experiments. Ranks share the experiments.
 [[nodiscard]] std::vector<Finding> all_findings(const Experiment& experiment, const sim::ReportPhase& progress = {},
                                                 sim::Progress* done = nullptr,
                                                 std::span<const ExperimentStep> steps = experiment_steps());
+
+/// On ranks other than 0 of Experiment::ranks: does what all_findings or findings_until on rank 0 hands out, until it has all.
+void serve_findings(const Experiment& experiment, std::span<const ExperimentStep> steps = experiment_steps());
 
 }  // namespace detp::validate

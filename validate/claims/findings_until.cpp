@@ -10,14 +10,10 @@
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
-#include "detp/sim/base/stopwatch.hpp"
-#include "detp/validate/checkpoint/estimate_json.hpp"
+#include "finding_json.hpp"
+#include "shared_findings.hpp"
 
 namespace detp::validate {
-
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FormulaValue, form, source, value)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, id, quantity, technique, parameters, predictions, observed, batches,
-                                   tolerance, lines, seconds)
 
 namespace {
 
@@ -27,23 +23,19 @@ constexpr double safety = 1.05;
 /// One experiment, and the sums over its repetitions.
 class Repeated {
  public:
-  Repeated(const ExperimentStep& step, const Experiment& experiment) : step_(step), experiment_(experiment) {}
+  explicit Repeated(bool draws) : draws_(draws) {}
 
   /// Throws sim::Stopped.
-  void repeat() {
-    Experiment one = experiment_;
-    one.seed += repetitions_ * 1'000'000'007ULL;
-    const sim::Stopwatch watch;
-    std::vector<Finding> found = step_.run(one);
-    if (found.empty() && experiment_.stop.stop_requested()) throw sim::Stopped("stopped during an experiment");
-    seconds_ += watch.seconds();
+  void add(FoundOnce found) {
+    if (found.stopped) throw sim::Stopped("stopped during an experiment");
+    seconds_ += found.seconds;
     ++repetitions_;
     if (repetitions_ == 1) {
-      sums_ = std::move(found);
+      sums_ = std::move(found.findings);
       for (Finding& sum : sums_) sum.observed.standard_error *= sum.observed.standard_error;
       return;
     }
-    for (std::size_t i = 0; i < sums_.size(); ++i) add(found[i], sums_[i]);
+    for (std::size_t i = 0; i < sums_.size(); ++i) add(found.findings[i], sums_[i]);
   }
 
   /// Which stage comes next.
@@ -68,11 +60,11 @@ class Repeated {
   }
 
   [[nodiscard]] std::size_t size() const { return sums_.size(); }
-  [[nodiscard]] bool started() const { return repetitions_ > 0; }
+  [[nodiscard]] std::uint64_t next() const { return repetitions_; }
   [[nodiscard]] double repetitions() const { return static_cast<double>(repetitions_); }
   [[nodiscard]] double seconds_of_one() const { return seconds_ / repetitions(); }
   /// The finding can become more accurate.
-  [[nodiscard]] bool grows(std::size_t i) const { return step_.draws && sums_[i].batches > 0; }
+  [[nodiscard]] bool grows(std::size_t i) const { return draws_ && sums_[i].batches > 0; }
 
   /// Mean over the repetitions.
   [[nodiscard]] Finding finding(std::size_t i) const {
@@ -103,8 +95,7 @@ class Repeated {
     for (std::size_t i = 0; i < sum.predictions.size(); ++i) sum.predictions[i].value += one.predictions[i].value;
   }
 
-  const ExperimentStep& step_;
-  const Experiment& experiment_;
+  bool draws_;
   std::vector<Finding> sums_;  ///< standard errors: sums of their squares
   std::uint64_t repetitions_ = 0;
   double seconds_ = 0;
@@ -114,8 +105,13 @@ class Findings {
  public:
   Findings(const Experiment& experiment, const FindingsTarget& target, const sim::ReportPhase& progress,
            CheckpointFile* checkpoint, std::span<const ExperimentStep> steps)
-      : target_(target), progress_(progress), checkpoint_(checkpoint) {
-    for (const ExperimentStep& step : steps) experiments_.emplace_back(step, experiment);
+      : experiment_(experiment),
+        target_(target),
+        progress_(progress),
+        checkpoint_(checkpoint),
+        steps_(steps),
+        shared_(experiment, steps) {
+    for (const ExperimentStep& step : steps) experiments_.emplace_back(step.draws);
   }
 
   void go_on_from(const nlohmann::json& saved) {
@@ -125,12 +121,8 @@ class Findings {
   FindingsUntil run() && {
     FindingsUntil result;
     try {
-      double done = 0;
-      for (Repeated& one : experiments_) {
-        report("first counts", share_of_first * done++ / static_cast<double>(experiments_.size()));
-        if (!one.started()) repeat(one);
-      }
-      for (Repeated& one : experiments_) refine(one);
+      begin();
+      for (std::size_t i = 0; i < experiments_.size(); ++i) refine(i);
     } catch (const sim::Stopped&) {
       result.stopped = true;
       save();
@@ -181,8 +173,27 @@ class Findings {
     return true;
   }
 
-  void repeat(Repeated& one) {
-    one.repeat();
+  /// The first repetition of each experiment: one after another, or all at once.
+  void begin() {
+    std::vector<Repetition> first;
+    std::vector<double> costs;
+    for (std::size_t i = 0; i < experiments_.size(); ++i) {
+      if (experiments_[i].next() > 0) continue;
+      first.push_back({i, 0});
+      costs.push_back(steps_[i].work(experiment_) * steps_[i].unit_time);
+    }
+    const std::size_t at_once = shared_.at_once() == 1 ? 1 : first.size();
+    for (std::size_t done = 0; done < first.size(); done += at_once) {
+      report("first counts", share_of_first * static_cast<double>(done) / static_cast<double>(first.size()));
+      const auto from = static_cast<std::ptrdiff_t>(done);
+      const auto to = static_cast<std::ptrdiff_t>(done + at_once);
+      add_all({first.begin() + from, first.begin() + to}, {costs.begin() + from, costs.begin() + to});
+    }
+  }
+
+  void add_all(const std::vector<Repetition>& repetitions, const std::vector<double>& costs = {}) {
+    std::vector<FoundOnce> found = shared_.find(repetitions, costs);
+    for (std::size_t i = 0; i < found.size(); ++i) experiments_[repetitions[i].step].add(std::move(found[i]));
     if (checkpoint_ != nullptr && checkpoint_->due()) save();
   }
 
@@ -193,7 +204,8 @@ class Findings {
     checkpoint_->write(state);
   }
 
-  void refine(Repeated& one) {
+  void refine(std::size_t number) {
+    Repeated& one = experiments_[number];
     Repeated::Plan& plan = one.plan;
     while (!plan.finished) {
       if (plan.stage_end == 0) {
@@ -203,10 +215,15 @@ class Findings {
         plan.finished = wanted <= one.repetitions();
       }
       for (const double begin = one.repetitions(); one.repetitions() < plan.stage_end;) {
-        const double left = (plan.stage_end - one.repetitions()) * one.seconds_of_one();
+        const double left =
+            (plan.stage_end - one.repetitions()) * one.seconds_of_one() / static_cast<double>(shared_.at_once());
         report(fmt::format("{:.2g} s more for {:.2g} %", left, 100 * target_.relative_error),
                share_of_first + (1 - share_of_first) * (one.repetitions() - begin) / (plan.stage_end - begin), left);
-        repeat(one);
+        std::vector<Repetition> next;
+        for (std::uint64_t i = one.next(); static_cast<double>(i) < plan.stage_end && next.size() < shared_.at_once();
+             ++i)
+          next.push_back({number, i});
+        add_all(next);
       }
       plan.stage_end = 0;
       if (!plan.stage_is_test || plan.finished) continue;
@@ -229,9 +246,12 @@ class Findings {
     return found;
   }
 
+  const Experiment& experiment_;
   const FindingsTarget& target_;
   const sim::ReportPhase& progress_;
   CheckpointFile* checkpoint_;
+  std::span<const ExperimentStep> steps_;
+  SharedFindings shared_;
   std::vector<Repeated> experiments_;
 };
 

@@ -69,6 +69,8 @@ CommonOptions options_on(World* world, const Command& command, CommonOptions com
                     command.app->get_name(), world->ranks().count()));
   common.ranks = &world->ranks();
   if (common.threads == 0) common.threads = world->cores();
+  if (common.colour == Colour::automatic)
+    common.colour = Colour::never;  // mpirun's output is a terminal, wherever it goes
   if (common.answers()) return common;
   common.output.reset();
   common.quiet = true;
@@ -167,9 +169,9 @@ int run_on(World& world, int argc, char** argv, Interruption& interruption) {
   } catch (...) {
     Failure failure = current_failure({argv, argv + argc});
     code = static_cast<int>(failure.code);
-    message = std::move(failure.message);
     if (failure.all_tell) muted.reset();
-    if (!muted) fail(failure.code, message);
+    if (!muted) fail(failure.code, failure.message);
+    if (!failure.all_tell) message = std::move(failure.message);
   }
   world.end(message, code);
   return code;
@@ -190,8 +192,8 @@ int run_program(int argc, char** argv, const JoinWorld& join) {
   prepare_streams();
   Interruption interruption;
   if (const int processes = launched_processes(); processes > 1 && !join)
-    return fail(ExitCode::bad_input, fmt::format("{} processes were started together, but detp was built without MPI",
-                                                 processes));
+    return fail(ExitCode::bad_input,
+                fmt::format("{} processes were started together, but detp was built without MPI", processes));
   try {
     if (const auto world = join ? join(interruption.signal_token()) : nullptr)
       return run_on(*world, argc, argv, interruption);

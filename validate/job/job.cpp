@@ -15,6 +15,8 @@
 #include "detp/sim/effects/self_shadow.hpp"
 #include "detp/sim/files/disc_file.hpp"
 #include "detp/sim/files/ray_file.hpp"
+#include "detp/sim/files/ray_row.hpp"
+#include "detp/sim/files/stored_rays.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
@@ -158,10 +160,13 @@ class JobMaker {
       progress_.read_rays(*request_.ray_file, job_.discs.size());
       if (request_.rays)
         throw std::invalid_argument("the number of rays is for fields of rays; a ray file is taken whole");
+      job_.field = sim::Field::photons;
+      if (request_.stream && is_large(*request_.ray_file))
+        job_.stream = sim::StoredRays::open(*request_.ray_file, stop_, request_.ranks);
+      if (job_.stream) return;
       sim::RayFile file = sim::read_rays(*request_.ray_file, stop_);
       keep(std::move(file.paths));
       job_.file_order = std::move(file.order);
-      job_.field = sim::Field::photons;
       return;
     }
     const double rays = request_.rays.value_or(rays_by_default);
@@ -183,6 +188,14 @@ class JobMaker {
     }
     const sim::Scene& scene = scene_for_photons();
     keep(sim::photon_paths(scene, count, request_.seed, caster_, stop_));
+  }
+
+  /// Its rays fill more than a block, and memory too much, or ranks share them.
+  [[nodiscard]] bool is_large(const std::string& path) const {
+    const auto table = sim::TableFile::open(path, sim::ray_columns());
+    if (!table || table->rows() <= sim::default_block(job_.discs.size())) return false;
+    constexpr double bytes = sizeof(sim::Ray) + sizeof(std::uint64_t) + sizeof(double);
+    return request_.ranks != nullptr || bytes * static_cast<double>(table->rows()) > sim::memory_budget() / 2;
   }
 
   void keep(sim::Paths paths) {
@@ -285,11 +298,12 @@ void Job::check_problem(int threads, const std::stop_token& stop) {
   given = sim::without_effects(*problem_);
 }
 
-sim::Paths Job::more_rays(std::uint64_t made, std::size_t count, const std::stop_token& stop_request) const {
+sim::Paths Job::more_rays(std::uint64_t made, std::uint64_t batch, std::size_t count,
+                          const std::stop_token& stop_request) const {
   if (rays_from_file) throw std::invalid_argument("a ray file has no further rays");
   if (field == sim::Field::photons) {
     if (!scene) throw std::invalid_argument("further photon paths need the scene, which was not kept");
-    return sim::photon_paths(*scene, count, seed + 0x9e3779b97f4a7c15ULL * made, caster, stop_request);
+    return sim::photon_paths(*scene, count, seed + 0x9e3779b97f4a7c15ULL * (batch + 1), caster, stop_request);
   }
   sim::Paths lines;
   lines.rays.resize(count);

@@ -116,10 +116,11 @@ struct Job {
 
   /// Checks rays and discs, as sim::make_problem, and sets `given`; `make_job` has done so. Rays and discs must not change afterwards.
   void check_problem(int threads = 1, const std::stop_token& stop = {});
-  /// Further rays of the same kind, independent of the first `made`, of which the job's own are the beginning: at least so many, to the
-  /// end of the last photon's path. A function of the seed, `made` and `rays`. Throws std::invalid_argument for rays of a file, and for
+  /// Further rays of the same kind, at least so many, to the end of the last photon's path. Lines are those that follow the first `made` of the
+  /// field, of which the job's own are the beginning. Photon paths are independent of the job's own, and of those of other batches. Throws std::invalid_argument for rays of a file, and for
   /// photon paths without keep_scene; sim::Stopped on a stop request.
-  [[nodiscard]] sim::Paths more_rays(std::uint64_t made, std::size_t rays, const std::stop_token& stop = {}) const;
+  [[nodiscard]] sim::Paths more_rays(std::uint64_t made, std::uint64_t batch, std::size_t rays,
+                                     const std::stop_token& stop = {}) const;
   /// Measured on discs and rays (of a stream on its first block) when it is first asked for; not for use from several threads. Throws
   /// as sim::observe, sim::Stopped on the stop request of `measuring`, and std::invalid_argument as check(Workload).
   [[nodiscard]] const Workload& workload() const;

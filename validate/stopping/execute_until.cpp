@@ -18,25 +18,27 @@ std::span<const T> part(std::span<const T> all, std::size_t first, std::size_t c
 
 }  // namespace
 
-ExecutedUntil execute_until(const SearchRays& search, const NextRays& next, std::vector<double> weights,
-                            const ErrorTarget& target, const UntilOptions& options, ExecutedUntil before,
-                            const SaveExecuted& save) {
+FoundBatch found_batch(const RayBatch& made, const sim::Outcome& found, double make_seconds) {
+  if (found.stopped) throw sim::Stopped("stopped during a batch");
+  FoundBatch batch{{found.irradiance, made.photons, made.rays.rays.size()}, found, make_seconds};
+  for (double& irradiance : batch.batch.irradiance) irradiance *= made.scale;
+  return batch;
+}
+
+ExecutedUntil execute_until(const FindBatch& find, std::vector<double> weights, const ErrorTarget& target,
+                            const UntilOptions& options, ExecutedUntil before, const SaveExecuted& save) {
   ExecutedUntil all = std::move(before);
   UntilOptions saving = options;
   if (save) saving.save = [&](const std::function<UntilState()>& state) { save(state, all); };
-  const NextBatch next_batch = [&](std::uint64_t rays) -> std::optional<Batch> {
-    const sim::Stopwatch watch;
-    const std::optional<RayBatch> made = next(rays);
-    all.make_seconds += watch.seconds();
-    if (!made) return std::nullopt;
-    const sim::Outcome& found = search(made->rays);
-    if (found.stopped) throw sim::Stopped("stopped during a batch");
-    Batch batch{found.irradiance, made->photons, made->rays.rays.size()};
-    for (double& irradiance : batch.irradiance) irradiance *= made->scale;
-    add_block(found, all.outcome);
-    all.outcome.hits.resize(found.hits.size());
-    for (std::size_t disc = 0; disc < found.hits.size(); ++disc) all.outcome.hits[disc] += found.hits[disc];
-    return batch;
+  const NextBatch next_batch = [&](std::uint64_t rays, std::uint64_t following) -> std::optional<Batch> {
+    std::optional<FoundBatch> found = find(rays, following);
+    if (!found) return std::nullopt;
+    all.make_seconds += found->make_seconds;
+    const sim::Outcome& outcome = found->outcome;
+    add_block(outcome, all.outcome);
+    all.outcome.hits.resize(outcome.hits.size());
+    for (std::size_t disc = 0; disc < outcome.hits.size(); ++disc) all.outcome.hits[disc] += outcome.hits[disc];
+    return std::move(found->batch);
   };
   all.result = run_until(next_batch, std::move(weights), target, saving);
   return all;
@@ -46,10 +48,14 @@ ExecutedUntil execute_until(const Plan& plan, const NextRays& next, std::vector<
                             const ErrorTarget& target, const UntilOptions& options) {
   plan.build();
   sim::SearchScratch scratch;
-  const SearchRays search = [&](const sim::PathRays& rays) -> const sim::Outcome& {
-    return plan.searcher().search(rays, scratch, {.threads = plan.threads()});
+  const FindBatch find = [&](std::uint64_t rays, std::uint64_t) -> std::optional<FoundBatch> {
+    const sim::Stopwatch watch;
+    const std::optional<RayBatch> made = next(rays);
+    const double make_seconds = watch.seconds();
+    if (!made) return std::nullopt;
+    return found_batch(*made, plan.searcher().search(made->rays, scratch, {.threads = plan.threads()}), make_seconds);
   };
-  return execute_until(search, next, std::move(weights), target, options);
+  return execute_until(find, std::move(weights), target, options);
 }
 
 std::vector<double> weights_by_area(std::span<const sim::Disc> discs) {

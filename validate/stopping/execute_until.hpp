@@ -25,8 +25,18 @@ struct RayBatch {
 /// Makes a batch of about so many rays, to the end of the last photon; nothing if there are no more. May throw sim::Stopped.
 using NextRays = std::function<std::optional<RayBatch>(std::uint64_t rays)>;
 
-/// The irradiance at the discs from some rays, as sim::Searcher::search. A stopped outcome ends the run.
-using SearchRays = std::function<const sim::Outcome&(const sim::PathRays&)>;
+/// A batch whose rays have been searched.
+struct FoundBatch {
+  Batch batch;
+  sim::Outcome outcome;     ///< its irradiance is that of the batch
+  double make_seconds = 0;  ///< for making the rays
+};
+
+/// As NextBatch.
+using FindBatch = std::function<std::optional<FoundBatch>(std::uint64_t rays, std::uint64_t following)>;
+
+/// The irradiance of rays that a search has found.
+[[nodiscard]] FoundBatch found_batch(const RayBatch& made, const sim::Outcome& found, double make_seconds);
 
 struct ExecutedUntil {
   UntilResult result;
@@ -39,9 +49,9 @@ using SaveExecuted = std::function<void(const std::function<UntilState()>& state
 
 /// run_until for rays. A run that goes on from options.resume begins with the outcome of `before`; `save` takes the place of options.save.
 /// `weights` of the discs by area, with sum 1. Throws as run_until and the search.
-[[nodiscard]] ExecutedUntil execute_until(const SearchRays& search, const NextRays& next, std::vector<double> weights,
-                                          const ErrorTarget& target, const UntilOptions& options = {},
-                                          ExecutedUntil before = {}, const SaveExecuted& save = {});
+[[nodiscard]] ExecutedUntil execute_until(const FindBatch& find, std::vector<double> weights, const ErrorTarget& target,
+                                          const UntilOptions& options = {}, ExecutedUntil before = {},
+                                          const SaveExecuted& save = {});
 
 /// The same with a plan's technique and index, on its threads.
 [[nodiscard]] ExecutedUntil execute_until(const Plan& plan, const NextRays& next, std::vector<double> weights,
@@ -59,6 +69,7 @@ class StoredBatches {
   /// Nothing at the end.
   [[nodiscard]] std::optional<RayBatch> next(std::uint64_t rays);
 
+  [[nodiscard]] bool at_end() const { return given_ == all_.rays.size(); }
   /// Goes on after the first `rays`, the last of which ends a photon.
   void skip(std::uint64_t rays) { given_ = static_cast<std::size_t>(std::min<std::uint64_t>(rays, all_.rays.size())); }
 

@@ -50,18 +50,29 @@ const sim::Outcome& JobSearch::operator()(const sim::PathRays& rays) {
   return scratch_.outcome = sim::run(problem, *surfaces_, options_);
 }
 
+std::optional<JobBatches::Place> JobBatches::next_place() const {
+  if (job_.rays_from_file || !own_.at_end()) return std::nullopt;
+  return Place{batches_, made_};
+}
+
 std::optional<RayBatch> JobBatches::next(std::uint64_t rays) {
   if (stop_.stop_requested()) throw sim::Stopped("stopped between batches");
-  if (auto batch = own_.next(rays)) {
-    if (powers_add_up()) batch->scale = 1 / batch->photons;
-    made_ += batch->rays.rays.size();
-    return batch;
+  std::optional<RayBatch> batch;
+  if (const auto place = next_place()) {
+    batch = at(*place, rays);
+  } else if ((batch = own_.next(rays)) && powers_add_up(job_)) {
+    batch->scale = 1 / batch->photons;
   }
-  if (job_.rays_from_file) return std::nullopt;
-  more_ = job_.more_rays(made_, static_cast<std::size_t>(rays), stop_);
-  made_ += more_.rays.size();
+  if (!batch) return std::nullopt;
+  ++batches_;
+  made_ += batch->rays.rays.size();
+  return batch;
+}
+
+RayBatch JobBatches::at(const Place& place, std::uint64_t rays) {
+  more_ = job_.more_rays(place.made, place.batch, static_cast<std::size_t>(rays), stop_);
   const auto photons = static_cast<double>(more_.photon_count);
-  return RayBatch{more_, photons, powers_add_up() ? 1 / photons : 1};
+  return {more_, photons, powers_add_up(job_) ? 1 / photons : 1};
 }
 
 std::vector<double> weights_of(const Job& job) {

@@ -14,6 +14,11 @@
 
 namespace detp::validate {
 
+/// The power of a ray does not depend on the number of rays.
+[[nodiscard]] inline bool powers_add_up(const Job& job) {
+  return !job.rays_from_file && job.field != sim::Field::photons;
+}
+
 /// Gives the rays of a job, then further ones of the same kind (Job::more_rays); of a file only those. Irradiances are those that all
 /// photons bring together; of lines, which have power 1 each, those of one line.
 class JobBatches {
@@ -22,8 +27,9 @@ class JobBatches {
   explicit JobBatches(const Job& job, std::stop_token stop = {})
       : job_(job), stop_(std::move(stop)), own_(job.paths(), job.independent_photons()) {}
 
-  /// Goes on after so many rays that other batches of the same job gave.
-  void skip(std::uint64_t rays) {
+  /// Goes on after so many batches of the same job, which gave so many rays.
+  void skip(std::uint64_t batches, std::uint64_t rays) {
+    batches_ = batches;
     made_ = rays;
     own_.skip(rays);
   }
@@ -31,15 +37,28 @@ class JobBatches {
   /// Throws sim::Stopped on a stop request.
   [[nodiscard]] std::optional<RayBatch> next(std::uint64_t rays);
 
-  /// The power of a ray does not depend on the number of rays.
-  [[nodiscard]] bool powers_add_up() const { return !job_.rays_from_file && job_.field != sim::Field::photons; }
+  /// Where the next batch is, if it has none of the job's own rays.
+  struct Place {
+    std::uint64_t batch = 0;
+    std::uint64_t made = 0;
+  };
+  /// Nothing if the next batch has rays of the job's own, or if there are no others.
+  [[nodiscard]] std::optional<Place> next_place() const;
+  /// A batch at the next place was given, by other means.
+  void count(std::uint64_t rays) {
+    ++batches_;
+    made_ += rays;
+  }
+  /// The batch at any place. It stays until the next one is made.
+  [[nodiscard]] RayBatch at(const Place& place, std::uint64_t rays);
 
  private:
   const Job& job_;
   std::stop_token stop_;
   StoredBatches own_;
   sim::Paths more_;
-  std::uint64_t made_ = 0;
+  std::uint64_t batches_ = 0;  ///< that were given
+  std::uint64_t made_ = 0;     ///< their rays
 };
 
 /// Searches rays of a job's kind, batch by batch: an index over its discs, or over its scene's surfaces, is built once.

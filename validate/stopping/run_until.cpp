@@ -93,7 +93,7 @@ class UntilRun {
     const auto each = static_cast<std::uint64_t>(std::max(1.0, std::ceil(stage_.rays / (2 * pairs))));
     while (static_cast<double>(stage_.batches) < 2 * pairs) {
       report(static_cast<double>(stage_.batches) / (2 * pairs));
-      const std::optional<Batch> found = next_(each);
+      const std::optional<Batch> found = next_(each, static_cast<std::uint64_t>(2 * pairs) - stage_.batches - 1);
       if (!found) return false;
       batches_.add(found->irradiance, found->photons);
       result_.rays += found->rays;

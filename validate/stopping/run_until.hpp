@@ -21,8 +21,9 @@ struct Batch {
   std::uint64_t rays = 0;
 };
 
-/// Makes the next batch, of about so many rays; nothing if there are no more. May throw sim::Stopped.
-using NextBatch = std::function<std::optional<Batch>(std::uint64_t rays)>;
+/// Makes the next batch, of about so many rays; nothing if there are no more. So many further ones of the same size will follow. May throw
+/// sim::Stopped.
+using NextBatch = std::function<std::optional<Batch>(std::uint64_t rays, std::uint64_t following)>;
 
 /// Errors are root mean squares over the discs by area, relative to the root mean square irradiance.
 struct ErrorTarget {
@@ -53,6 +54,11 @@ struct UntilState {
   bool stage_is_test = false;       ///< it is planned to reach the target
   bool stage_is_last = false;       ///< there may be no more rays after it
   std::uint64_t stage_batches = 0;  ///< that it has already
+
+  /// Of all stages.
+  [[nodiscard]] std::uint64_t batch_count() const {
+    return 2 * batches.pairs.size() + (batches.pending_photons > 0 ? 1 : 0);
+  }
 };
 
 struct UntilOptions {

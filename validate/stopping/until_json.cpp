@@ -19,6 +19,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairedBatches::State, sums, pending, pending_
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UntilState, batches, rays, tests, stage_rays, stage_is_test, stage_is_last,
                                    stage_batches)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ExecutedUntil, outcome, make_seconds)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Batch, irradiance, photons, rays)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FoundBatch, batch, outcome, make_seconds)
 
 nlohmann::json json_of(const UntilState& state, const ExecutedUntil& so_far) {
   return {{"state", state}, {"so_far", so_far}};
@@ -27,5 +29,13 @@ nlohmann::json json_of(const UntilState& state, const ExecutedUntil& so_far) {
 SavedRun saved_run_of(const nlohmann::json& json) {
   return {json.at("state").get<UntilState>(), json.at("so_far").get<ExecutedUntil>()};
 }
+
+std::string bytes_of(const FoundBatch& found) {
+  std::string bytes;
+  nlohmann::json::to_cbor(found, bytes);  // binary: exact and short
+  return bytes;
+}
+
+FoundBatch found_batch_of(const std::string& bytes) { return nlohmann::json::from_cbor(bytes).get<FoundBatch>(); }
 
 }  // namespace detp::validate

@@ -17,4 +17,8 @@ struct SavedRun {
 /// Throws nlohmann::json::exception unless the JSON is that of json_of.
 [[nodiscard]] SavedRun saved_run_of(const nlohmann::json& json);
 
+/// To be sent to another process.
+[[nodiscard]] std::string bytes_of(const FoundBatch& found);
+[[nodiscard]] FoundBatch found_batch_of(const std::string& bytes);
+
 }  // namespace detp::validate

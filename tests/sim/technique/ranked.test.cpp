@@ -3,21 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <condition_variable>
-#include <cstring>
-#include <deque>
-#include <exception>
-#include <map>
-#include <mutex>
-#include <thread>
 
-#include "detp/sim/base/stopped.hpp"
+#include "../ranks/thread_ranks.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/photon_source.hpp"
-#include "detp/sim/ranks/failures.hpp"
-#include "detp/sim/ranks/parts.hpp"
 #include "detp/sim/search/irradiance.hpp"
 #include "detp/sim/technique/technique.hpp"
 
@@ -25,65 +16,6 @@ using namespace detp;
 using namespace detp::sim;
 
 namespace {
-
-/// Letters between ranks that are threads of one process.
-class Post {
- public:
-  void put(std::pair<int, int> from_to, std::vector<std::byte> letter) {
-    const std::lock_guard lock(mutex_);
-    letters_[from_to].push_back(std::move(letter));
-    came_.notify_all();
-  }
-  std::vector<std::byte> take(std::pair<int, int> from_to) {
-    std::unique_lock lock(mutex_);
-    came_.wait(lock, [&] { return !letters_[from_to].empty(); });
-    std::vector<std::byte> letter = std::move(letters_[from_to].front());
-    letters_[from_to].pop_front();
-    return letter;
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable came_;
-  std::map<std::pair<int, int>, std::deque<std::vector<std::byte>>> letters_;
-};
-
-class ThreadRank final : public Ranks {
- public:
-  ThreadRank(Post& post, int rank, int count) : post_(post), rank_(rank), count_(count) {}
-  [[nodiscard]] int rank() const override { return rank_; }
-  [[nodiscard]] int count() const override { return count_; }
-  void send(std::span<const std::byte> bytes, int to) override { post_.put({rank_, to}, {bytes.begin(), bytes.end()}); }
-  void receive(std::span<std::byte> bytes, int from) override {
-    const std::vector<std::byte> letter = post_.take({from, rank_});
-    REQUIRE(letter.size() == bytes.size());
-    std::memcpy(bytes.data(), letter.data(), bytes.size());
-  }
-
- private:
-  Post& post_;
-  int rank_;
-  int count_;
-};
-
-/// Calls work(ranks) on so many ranks, and returns what each threw.
-template <class Work>
-std::vector<std::exception_ptr> on_ranks(int count, const Work& work) {
-  Post post;
-  std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(count));
-  std::vector<std::jthread> threads;
-  for (int rank = 0; rank < count; ++rank)
-    threads.emplace_back([&, rank] {
-      ThreadRank ranks(post, rank, count);
-      try {
-        work(ranks);
-      } catch (...) {
-        thrown[static_cast<std::size_t>(rank)] = std::current_exception();
-      }
-    });
-  threads.clear();  // waits
-  return thrown;
-}
 
 /// Lines with powers that tell the order of additions apart.
 class UnequalLines final : public RaySource {
@@ -182,46 +114,6 @@ TEST_SUITE("ranks") {
     }
     CHECK(first == lines.size());
     CHECK(shares_of_rays(LinesOfField({{0, 0, 0}, 1}, 1, 10), blocks, 3)[2].first == 10);
-  }
-
-  TEST_CASE("what fails on one rank fails on all, with its message") {
-    const auto thrown = on_ranks(3, [&](Ranks& ranks) {
-      do_on_all(ranks, [] {});
-      do_on_all(ranks, [&] {
-        if (ranks.rank() == 1) throw std::length_error("no room");
-      });
-    });
-    CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown[0]), "rank 1: no room", RankFailed);
-    CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown[1]), "no room", std::length_error);
-    CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown[2]), "rank 1: no room", RankFailed);
-  }
-
-  TEST_CASE("a rank that is stopped stops all, unless another fails") {
-    const auto end = [](int failing) {
-      return on_ranks(3, [&](Ranks& ranks) {
-        do_on_all(ranks, [&] {
-          if (ranks.rank() == 1) throw Stopped("stopped at 5 rays");
-          if (ranks.rank() == failing) throw std::length_error("no room");
-        });
-      });
-    };
-    for (const std::exception_ptr& thrown : end(-1))
-      CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown), "stopped at 5 rays", Stopped);
-    CHECK_THROWS_WITH_AS(std::rethrow_exception(end(2)[0]), "rank 2: no room", RankFailed);
-  }
-
-  TEST_CASE("parts of an array follow one another, for any number of ranks") {
-    for (const int count : {1, 2, 3, 7}) {
-      const auto thrown = on_ranks(count, [&](Ranks& ranks) {
-        std::vector<std::size_t> numbers(11, 99);
-        const auto [first, last] = part_of(numbers.size(), ranks);
-        CHECK(last - first >= 11U / static_cast<unsigned>(count));
-        for (std::size_t i = first; i < last; ++i) numbers[i] = i;
-        share_parts(ranks, std::span(numbers));
-        for (std::size_t i = 0; i < numbers.size(); ++i) CHECK(numbers[i] == i);
-      });
-      for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
-    }
   }
 
   TEST_CASE("sums of parts that do not follow one another are refused") {

@@ -189,7 +189,7 @@ TEST_SUITE("bad input") {
          resumed("{}", "is not a checkpoint"),
          resumed(std::string(5000, '['), "is not a checkpoint"),
          resumed(
-             R"({"schema":{"name":"detp.checkpoint","version":2},"work":"validate --effort thorough","key":{"seed":7}})",
+             R"({"schema":{"name":"detp.checkpoint","version":3},"work":"validate --effort thorough","key":{"seed":7}})",
              "was made with seed 7"),
          resumed(R"({"schema":{"name":"detp.checkpoint","version":9}})", "not a checkpoint of this version"),
          {"validate --effort thorough --checkpoint " + folder.path("missing/c"), "cannot be written"},

@@ -71,11 +71,11 @@ TEST_SUITE("stopping") {
         request.keep_scene = true;
         request.field = photons ? sim::Field::photons : sim::Field::isotropic;
         const Job job = make_job(request);
-        const sim::Paths more = job.more_rays(1000, 500);
+        const sim::Paths more = job.more_rays(1000, 32, 500);
         CHECK(more.rays.size() >= 500);
         CHECK(more.rays.front().origin != job.rays.front().origin);
-        CHECK(job.more_rays(1000, 500).rays.front().origin == more.rays.front().origin);
-        CHECK(job.more_rays(1500, 500).rays.front().origin != more.rays.front().origin);
+        CHECK(job.more_rays(1000, 32, 500).rays.front().origin == more.rays.front().origin);
+        CHECK(job.more_rays(1500, 33, 500).rays.front().origin != more.rays.front().origin);
         if (photons) continue;
         request.rays = 1500;
         CHECK(make_job(request).rays[1000].origin == more.rays.front().origin);
@@ -83,7 +83,7 @@ TEST_SUITE("stopping") {
     JobRequest forgotten;
     forgotten.scene = "@cornell";
     forgotten.rays = 100;
-    CHECK_THROWS_AS(static_cast<void>(make_job(forgotten).more_rays(100, 10)), std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(make_job(forgotten).more_rays(100, 1, 10)), std::invalid_argument);
   }
 }
 

@@ -62,7 +62,7 @@ struct Coverage {
 };
 
 NextBatch batches_of(Light& light) {
-  return [&light](std::uint64_t rays) { return std::optional(light.batch(rays)); };
+  return [&light](std::uint64_t rays, std::uint64_t) { return std::optional(light.batch(rays)); };
 }
 
 Coverage coverage(Light light, double target, int runs) {
@@ -174,7 +174,7 @@ TEST_SUITE("stopping") {
     CHECK(limited.rays >= 20'000);
     CHECK(limited.rays < 20'100);
     int batches = 0;
-    const NextBatch stopped = [&](std::uint64_t rays) -> std::optional<Batch> {
+    const NextBatch stopped = [&](std::uint64_t rays, std::uint64_t) -> std::optional<Batch> {
       if (++batches > 40) throw sim::Stopped("stopped");
       return light.batch(rays);
     };
@@ -182,7 +182,7 @@ TEST_SUITE("stopping") {
     CHECK(partial.reason == StopReason::time);
     CHECK(partial.noise.value > 0);
     CHECK(partial.rays > 3200);
-    const NextBatch few = [&](std::uint64_t rays) {
+    const NextBatch few = [&](std::uint64_t rays, std::uint64_t) {
       return ++batches % 50 == 0 ? std::nullopt : std::optional(light.batch(rays));
     };
     CHECK(run_until(few, equal(4), {.error = 0.001}, {.first_rays = 3200}).reason == StopReason::rays);
@@ -190,7 +190,7 @@ TEST_SUITE("stopping") {
 
   TEST_CASE("a run that goes on from any of its states ends as in one go") {
     unsigned made = 0;
-    const NextBatch next = [&](std::uint64_t rays) {
+    const NextBatch next = [&](std::uint64_t rays, std::uint64_t) {
       return std::optional(Light{.discs = 3, .hit = 0.2, .spread = 1, .random = std::mt19937_64(++made)}.batch(rays));
     };
     std::vector<UntilState> states;

@@ -14,6 +14,7 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/open/open_scene.hpp"
+#include "detp/sim/ranks/failures.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/options/outputs.hpp"
@@ -217,15 +218,15 @@ std::optional<sim::Progress> find_answer(AccuracyAnswer& answer, sim::Scene& sce
 void check_files(const AccuracyOptions& options, const CommonOptions& common) {
   check_outputs(
       {{"--output", common.output}, {"--reference", options.reference}, {"--checkpoint", options.checkpoint}});
-  if (options.resume && !options.checkpoint)
-    throw std::invalid_argument("--resume needs the --checkpoint FILE to continue from");
 }
 
 Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const validate::AccuracyTarget target = target_of(options);
   const SeedRange seeds = options.seeds ? parse_seeds("--seeds", *options.seeds) : SeedRange{};
   if (options.seeds) validate::check_seeds(seeds.first, seeds.last);
-  check_files(options, common);
+  if (options.resume && !options.checkpoint)
+    throw std::invalid_argument("--resume needs the --checkpoint FILE to continue from");
+  if (common.answers()) check_files(options, common);
   check_axes(options);
   const double most_rays = options.rays.value_or(1e9);
   require_count("--rays", most_rays, 1000, 1e12);
@@ -238,7 +239,8 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
                                        .seed = common.seed,
                                        .threads = common.threads,
                                        .stop = stop,
-                                       .progress = progress.report()};
+                                       .progress = progress.report(),
+                                       .ranks = options.seeds ? common.ranks : nullptr};
   if (scene.mesh.triangles.empty())
     throw std::invalid_argument(
         fmt::format("accuracy needs photon paths in a mesh; {} has no triangles", options.scene));
@@ -253,11 +255,22 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
                         .axes = {},
                         .in_time = {}};
   answer.side = scene.box.longest_side();
-  if (options.reference) {
-    answer.reference = validate::kept_reference(
+  const auto reference = [&] {
+    return validate::kept_reference(
         *options.reference, scene,
         {.front_facing = options.front_facing, .threads = common.threads, .stop = stop, .progress = progress.report()});
+  };
+  if (options.reference) {
+    if (common.ranks != nullptr)  // rank 0 makes it, unless there is one
+      sim::do_on_all(*common.ranks, [&] {
+        if (common.answers()) answer.reference = reference();
+      });
+    if (!answer.reference) answer.reference = reference();
     pilot.reference = &*answer.reference;
+  }
+  if (!common.answers()) {
+    if (options.seeds) validate::serve_reruns(scene, pilot);
+    return {};
   }
   KeptAccuracy saved(options, scene, target, most_rays, common.seed, stop);
   std::optional<sim::Progress> stopped = find_answer(answer, scene, target, pilot, most_rays, saved);
@@ -341,9 +354,11 @@ Command accuracy_command(CLI::App& program) {
       "--checkpoint", options->checkpoint,
       "keep in this file the pilots and the runs of --seeds, so that the command can be killed; default: none");
   app->add_flag("--resume", options->resume, "go on from the checkpoint; default: begin anew");
-  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
+  return {app,
+          [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_accuracy(*options, common, stop);
-          }};
+          },
+          true};
 }
 
 }  // namespace detp::cli

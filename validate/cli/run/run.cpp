@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "agreed.hpp"
 #include "detp/model/optimum/best_ratio.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "detp/model/vocabulary/nearest_name.hpp"
@@ -11,9 +12,7 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/sim/files/writing_check.hpp"
-#include "detp/sim/ranks/failures.hpp"
 #include "detp/validate/base/search_work.hpp"
-#include "detp/validate/choice/candidate_json.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
@@ -71,12 +70,6 @@ sim::Estimator estimator_of(const RunOptions& options) {
   return estimator;
 }
 
-/// A candidate, and the number of threads of its run.
-struct Requested {
-  Candidate candidate = {};
-  int threads = 1;
-};
-
 /// The number of threads, at most `most_threads`, on which the closed form predicts the candidate to be fastest.
 int chosen_threads(const Candidate& candidate, const Workload& workload, const CostTable& costs, int most_threads) {
   try {
@@ -116,15 +109,6 @@ Requested requested(const CandidateOptions& options, sim::Estimator estimator, c
   if (estimator != sim::Estimator::nearest) return {{}, sim::thread_count(threads)};
   return {model::candidate_with(Technique::photon_map, options.fixed_parameters(Technique::photon_map)),
           sim::thread_count(threads)};
-}
-
-/// What rank 0 would run, on all ranks.
-Requested agreed(sim::Ranks& ranks, const std::function<Requested()>& of_first) {
-  const Json json = Json::parse(sim::from_first(ranks, [&] {
-    const Requested choice = of_first();
-    return Json{{"technique", name(choice.candidate.technique)}, {"parameters", to_json(choice.candidate)}, {"threads", choice.threads}}.dump();
-  }));
-  return {candidate_of(parse_technique(json.at("technique")), json.at("parameters")), json.at("threads")};
 }
 
 sim::EstimateRequest request_of(const RunAnswer& answer, const validate::Job& job) {
@@ -268,13 +252,14 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
                                     .stop = stop};
   const sim::Estimator estimator = estimator_of(options);
   const bool searches = sim::record_of(estimator).finds_pairs;
-  const bool shared = common.ranks != nullptr && job.stream && searches;
-  if (!shared && !common.answers()) return {};
+  const bool until = options.target.given();
+  sim::Ranks* const ranks = job.stream || until ? common.ranks : nullptr;  // that share the search
+  if (ranks == nullptr && !common.answers()) return {};
   const bool by_pilot =
       searches && !options.candidate.technique && validate::reachable_rigor(question, costs) == Rigor::pilot;
   const CostTable priced = validate::costs_for(question, costs);
   const auto by_options = [&] { return requested(options.candidate, estimator, job, priced, common.threads); };
-  const Requested choice = by_pilot ? Requested{} : shared ? agreed(*common.ranks, by_options) : by_options();
+  const Requested choice = by_pilot ? Requested{} : agreed(ranks, by_options);
   RunAnswer answer{.candidate = choice.candidate,
                    .estimator = estimator,
                    .threads = choice.threads,
@@ -283,9 +268,9 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
                    .repeat = options.repeat,
                    .standard_error = options.standard_error,
                    .random_rays = !options.workload.request(common).ray_file};
-  if (options.target.given()) {
+  if (until) {
     const double most_rays = options.workload.request(common).rays.value_or(most_rays_by_default);
-    run_to_target(answer, job, options.target, most_rays, by_pilot, common.threads, stop, progress);
+    run_to_target(answer, job, options.target, most_rays, by_pilot, common.threads, stop, progress, ranks);
     return answer;
   }
   const Engine engine = options.candidate.engine;
@@ -300,12 +285,12 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
     answer.run.rays_in_memory = job.rays.size();
     choose_and_run(answer, question, costs, run, sim::part_of(progress, 0, share_of_first));
   } else {
-    answer.run = run_job(job, request_of(answer, job), run, sim::part_of(progress, 0, share_of_first), shared ? common.ranks : nullptr);
+    answer.run = run_job(job, request_of(answer, job), run, sim::part_of(progress, 0, share_of_first), ranks);
   }
   run.threads = answer.threads;
   run.count = run.pairs = false;
   answer.timing = time_runs(job, request_of(answer, job), answer.run, answer.run.outcome.stopped ? 0 : options.repeat,
-                            run, sim::part_of(progress, share_of_first, 1), shared ? common.ranks : nullptr);
+                            run, sim::part_of(progress, share_of_first, 1), ranks);
   return answer;
 }
 
@@ -446,10 +431,10 @@ Command run_command(CLI::App& program) {
   app->add_option("--checkpoint", options->target.checkpoint,
                   "with a target: keep in this file what is found, so that the run can be killed; default: none");
   app->add_flag("--resume", options->target.resume, "go on from the checkpoint; default: begin anew");
-  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
-            return run_run(*options, common, stop);
-          },
-          true};
+  return {
+      app,
+      [options](const CommonOptions& common, const std::stop_token& stop) { return run_run(*options, common, stop); },
+      true};
 }
 
 }  // namespace detp::cli

@@ -143,7 +143,8 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
         price(*predicted, answer.costs, answer.candidate.technique, sim::useful_threads(answer.threads)).total();
     const double errors =
         answer.standard_error ? validate::standard_error_seconds(predicted->hits, job.numbered(), answer.costs) : 0;
-    json["predicted_seconds"] = (search + errors) / static_cast<double>(std::max<std::size_t>(1, answer.run.rank_seconds.size()));
+    json["predicted_seconds"] =
+        (search + errors) / static_cast<double>(std::max<std::size_t>(1, answer.run.rank_seconds.size()));
   }
   json.update({{"seconds", seconds_json(answer.timing, answer.repeat)},
                {"read_seconds", job.read_seconds},

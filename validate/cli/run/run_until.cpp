@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "agreed.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/streamed.hpp"
@@ -14,6 +15,7 @@
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/job/job_digest.hpp"
 #include "detp/validate/stopping/job_batches.hpp"
+#include "detp/validate/stopping/shared_batches.hpp"
 #include "detp/validate/stopping/until_json.hpp"
 
 namespace detp::cli {
@@ -97,21 +99,34 @@ double first_rays(std::optional<double> most_rays) {
 }
 
 void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOptions& options, double most_rays,
-                   bool choose, int threads, const std::stop_token& stop, const sim::ReportPhase& progress) {
+                   bool choose, int threads, const std::stop_token& stop, const sim::ReportPhase& progress,
+                   sim::Ranks* ranks) {
   const sim::Stopwatch watch;
   validate::ErrorTarget target = options.target();
   UntilAnswer until{.target = target.error, .total = options.error.has_value(), .confidence = target.confidence};
   if (choose) {
-    const validate::Choice choice = validate::choose({.problem = &job.problem(),
-                                                      .effects = job.measuring.effects,
-                                                      .surface = &job.surface,
-                                                      .purpose = validate::Purpose::one_search,
-                                                      .threads = threads,
-                                                      .stop = stop},
-                                                     answer.costs);
-    answer.candidate = choice.best().candidate;
-    answer.threads = choice.best().threads;
-    until.choosing_seconds = choice.choosing_seconds;
+    const Requested chosen = agreed(ranks, [&]() -> Requested {
+      const validate::Choice choice = validate::choose({.problem = &job.problem(),
+                                                        .effects = job.measuring.effects,
+                                                        .surface = &job.surface,
+                                                        .purpose = validate::Purpose::one_search,
+                                                        .threads = threads,
+                                                        .stop = stop},
+                                                       answer.costs);
+      until.choosing_seconds = choice.choosing_seconds;
+      return {choice.best().candidate, choice.best().threads};
+    });
+    answer.candidate = chosen.candidate;
+    answer.threads = chosen.threads;
+  }
+  const auto search_here = [&] {
+    return validate::JobSearch(job, answer.estimator, answer.candidate,
+                               {.engine = answer.engine, .stop = stop, .threads = answer.threads});
+  };
+  if (ranks != nullptr && ranks->rank() != 0) {
+    validate::JobSearch search = search_here();
+    validate::SharedBatches(job, search, stop, ranks).serve();
+    return;
   }
   constexpr double most_pilot_rays = 4e6;
   if (until.total && has_bias(job)) {
@@ -125,16 +140,15 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
     file.emplace(*options.checkpoint, "run until an error", key_of(answer, job, until, limit));
     if (options.resume) saved = read(*file, stop);
   }
-  validate::JobSearch search(job, answer.estimator, answer.candidate,
-                             {.engine = answer.engine, .stop = stop, .threads = answer.threads});
-  validate::JobBatches batches(job, stop);
+  validate::JobSearch search = search_here();
+  validate::SharedBatches batches(job, search, stop, ranks);
   validate::UntilOptions stages{.most_rays = limit,
                                 .first_rays = job.rays.size(),
                                 .most_in_batch = sim::default_block(job.discs.size()),
                                 .progress = progress};
   validate::ExecutedUntil before;
   if (saved) {
-    batches.skip(saved->state.rays);
+    batches.skip(saved->state.batch_count(), saved->state.rays);
     stages.resume = std::move(saved->state);
     before = std::move(saved->so_far);
   }
@@ -143,13 +157,12 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
     save = [&](const std::function<validate::UntilState()>& state, const validate::ExecutedUntil& so_far) {
       if (file->due() || stop.stop_requested()) file->write(validate::json_of(state(), so_far));
     };
-  validate::ExecutedUntil found =
-      validate::execute_until([&](const sim::PathRays& rays) -> const sim::Outcome& { return search(rays); },
-                              [&](std::uint64_t rays) { return batches.next(rays); }, validate::weights_of(job), target,
-                              stages, std::move(before), save);
+  validate::ExecutedUntil found = validate::execute_until(
+      [&](std::uint64_t rays, std::uint64_t following) { return batches.next(rays, following); },
+      validate::weights_of(job), target, stages, std::move(before), save);
   sim::Outcome& outcome = answer.run.outcome = std::move(found.outcome);
   outcome.irradiance = std::move(found.result.irradiance);
-  if (batches.powers_add_up())
+  if (validate::powers_add_up(job))
     for (double& irradiance : outcome.irradiance) irradiance *= found.result.photons;
   outcome.seconds.order += search.built().seconds.order;
   outcome.seconds.build += search.built().seconds.build;

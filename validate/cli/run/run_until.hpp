@@ -25,9 +25,10 @@ struct TargetOptions {
 [[nodiscard]] double first_rays(std::optional<double> most_rays);
 
 /// Fills in the answer's outcome, times and `until`. Goes on from the checkpoint if it is to resume; keeps one, also when it is stopped. `answer` has the estimator, and unless `choose`, the candidate and its threads.
-/// The job has its scene, if photons were traced in one.
+/// The job has its scene, if photons were traced in one. Ranks share the rays that follow the job's own.
 void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOptions& options, double most_rays,
-                   bool choose, int threads, const std::stop_token& stop, const sim::ReportPhase& progress);
+                   bool choose, int threads, const std::stop_token& stop, const sim::ReportPhase& progress,
+                   sim::Ranks* ranks = nullptr);
 
 /// What the JSON of a run has in addition.
 [[nodiscard]] Json to_json(const UntilAnswer& until);

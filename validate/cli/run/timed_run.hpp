@@ -12,9 +12,9 @@ namespace detp::cli {
 /// A run over all rays of a job. The rays are in memory or a stream.
 struct TimedRun {
   sim::Outcome outcome;
-  double prepare_seconds = 0;      ///< time for checking rays and discs, and for S₀
-  double trace_seconds = 0;        ///< time for making the rays of a stream
-  std::size_t rays_in_memory = 0;  ///< maximum number of rays in memory at a time
+  double prepare_seconds = 0;             ///< time for checking rays and discs, and for S₀
+  double trace_seconds = 0;               ///< time for making the rays of a stream
+  std::size_t rays_in_memory = 0;         ///< maximum number of rays in memory at a time
   std::vector<double> rank_seconds = {};  ///< of each rank (sim::RankedOutcome); empty if one process searched
 };
 

@@ -104,6 +104,7 @@ validate::Experiment make_experiment(const validate::JobRequest& request, const 
   validate::Experiment experiment = request.numbers_alone() ? uniform_experiment(request, stop, result)
                                                             : scene_experiment(request, common, stop, result);
   experiment.seed = request.seed;
+  experiment.ranks = common.ranks;
   result.inputs["seed"] = request.seed;
   return experiment;
 }
@@ -273,11 +274,15 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   check_effort(options, options.workload.request(common, false));
   static_cast<void>(options.until.target());
   const std::vector<validate::ExperimentStep> steps = steps_of(options);
-  check_files(options, common, stop);
+  if (common.answers()) check_files(options, common, stop);
   const ProgressLine progress(common.quiet);
   Result result;
   const validate::Experiment experiment =
       make_experiment(options.workload.request(common, false), common, stop, result);
+  if (!common.answers()) {
+    validate::serve_findings(experiment, steps);
+    return {};
+  }
   sim::Progress done;
   const auto target = options.until.target();
   const auto report = sim::part_of(progress.report(), 0, options.thorough ? share_of_claims : 1);
@@ -340,9 +345,11 @@ Command validate_command(CLI::App& program) {
   app->add_option("--sweep-rows", options->sweep_rows,
                   "thorough: write one row for each count of the sweep as CSV; default: none");
   add_count(*app, "--most-samples", options->most_samples, "thorough: leave out larger workloads; default: 1e7, all");
-  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
+  return {app,
+          [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_validate(*options, common, stop);
-          }};
+          },
+          true};
 }
 
 }  // namespace detp::cli

@@ -201,7 +201,7 @@ std::optional<ScalarEnd> two_stages(Stream& stream, const ScalarTarget& target) 
 }
 
 std::optional<ScalarEnd> pairs_of_batches(Stream& stream, const ScalarTarget& target) {
-  const validate::NextBatch next = [&](std::uint64_t count) {
+  const validate::NextBatch next = [&](std::uint64_t count, std::uint64_t) {
     return std::optional(
         validate::Batch{{mean_of(stream.distribution(), stream.next(count))}, static_cast<double>(count), count});
   };

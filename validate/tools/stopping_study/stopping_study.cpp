@@ -145,7 +145,7 @@ void run(const Case& one, std::uint64_t seeds, std::ostream& table) {
     Batches batches(one, seed);
     results.emplace_back(
         "pairs of batches",
-        validate::run_until([&](std::uint64_t count) { return batches.next(count); }, batches.weights(),
+        validate::run_until([&](std::uint64_t count, std::uint64_t) { return batches.next(count); }, batches.weights(),
                             {.error = one.target}, {.first_rays = static_cast<std::uint64_t>(first_rays)}));
     rays.push_back(static_cast<double>(results.back().second.rays));
     Batches again(one, seed);

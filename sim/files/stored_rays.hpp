@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "detp/sim/ranks/ranks.hpp"
+#include "detp/sim/rays/ray_source.hpp"
+#include "table_file.hpp"
+
+namespace detp::sim {
+
+/// The rays of a file, read block by block; only the numbers of the photons before every 2¹⁶ rays are kept in memory. Photons are numbered 0, 1, 2, … in
+/// the order of the rays, as read_rays does.
+class StoredRays final : public RaySource {
+ public:
+  /// Null if the rows of the file cannot be read in any order (TableFile::open), or if photons' numbers fall. Reads the whole file once; ranks, if
+  /// given, share that. Throws FileError as read_rays does, and Stopped on a stop request.
+  [[nodiscard]] static std::unique_ptr<const StoredRays> open(const std::string& path, const std::stop_token& stop = {},
+                                                              Ranks* ranks = nullptr);
+
+  [[nodiscard]] std::uint64_t size() const override { return file_.rows(); }
+  void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const override;
+  [[nodiscard]] bool numbered() const override;
+  [[nodiscard]] std::uint64_t photons() const override { return photons_; }
+  [[nodiscard]] std::uint64_t block_end(std::uint64_t first, std::uint64_t most) const override;
+  [[nodiscard]] std::uint64_t first_ray_of(std::uint64_t photon) const override;
+  void read_numbered(std::uint64_t first, std::span<Ray> block, std::vector<std::uint64_t>& photons,
+                     const std::stop_token& stop = {}) const override;
+  [[nodiscard]] double farthest_from(const glm::dvec3& point) const override;
+
+ private:
+  explicit StoredRays(TableFile file) : file_(std::move(file)) {}
+  /// False if photons' numbers fall.
+  [[nodiscard]] bool look_through(const std::stop_token& stop, Ranks* ranks);
+  /// Calls visit(ray, number) with the photon's number of the rays first … last - 1.
+  template <class Visit>
+  void for_each_photon(std::uint64_t first, std::uint64_t last, const Visit& visit) const;
+  [[nodiscard]] std::uint64_t photon_of(std::uint64_t ray) const;
+
+  TableFile file_;
+  Box origins_;
+  std::uint64_t photons_ = 0;
+  std::vector<std::uint64_t> before_;  ///< number of the photon of each chunk's first ray
+};
+
+}  // namespace detp::sim

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ply_header.hpp"
+#include "table.hpp"
+
+namespace detp::sim {
+
+/// A table whose rows can be read in any order: a binary PLY file whose vertices have no lists. Reads by position, because a part of a mapped
+/// file that cannot be read ends the program. May be used by several threads.
+class TableFile {
+ public:
+  /// Null for any other file. Throws FileError as read_table does, and if the file is shorter than its header says.
+  [[nodiscard]] static std::optional<TableFile> open(const std::string& path, const std::vector<TableColumn>& columns);
+
+  ~TableFile();
+  TableFile(TableFile&& other) noexcept;
+  TableFile& operator=(TableFile&&) = delete;
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] std::uint64_t rows() const { return rows_; }
+  /// The file has the column.
+  [[nodiscard]] bool given(std::size_t column) const { return places_[column].has_value(); }
+
+  /// Passes on the rows first … last - 1. Throws FileError with the system's reason if they cannot be read.
+  void read(std::uint64_t first, std::uint64_t last, const TableSink& sink) const;
+
+ private:
+  /// Of a column in a row.
+  struct Place {
+    std::size_t offset = 0;
+    PlyType type = PlyType::float32;
+  };
+
+  TableFile(std::string path, std::vector<TableColumn> columns)
+      : path_(std::move(path)), columns_(std::move(columns)) {}
+
+  std::string path_;
+  std::vector<TableColumn> columns_;
+  std::vector<std::optional<Place>> places_;  ///< of each column
+  std::uint64_t rows_ = 0;
+  std::uint64_t begin_ = 0;  ///< of the first row, bytes
+  std::size_t row_size_ = 0;
+  bool swapped_ = false;
+  int descriptor_ = -1;
+};
+
+}  // namespace detp::sim

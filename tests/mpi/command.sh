@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# The command on several processes finds what one finds, to the last byte. Called with: command.sh MPIRUN DETP
+set -euo pipefail
+mpirun=$1
+detp=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+failures=0
+fail() { echo "FAILED: $*" >&2; failures=$((failures + 1)); }
+on() { "$mpirun" --oversubscribe -n "$1" "$detp" "${@:2}" --threads 1; }
+
+# compare COUNT_OF_PROCESSES NAME_OF_CASE ARGUMENTS...: hits, irradiance, errors and pairs.
+one() { "$detp" run "${@:2}" --per-disc "$1.csv" --quiet --threads 1 > /dev/null; }
+same() {
+  on "$1" run "${@:3}" --per-disc "$2.$1.csv" --quiet > /dev/null || fail "$1 processes: $2"
+  cmp "$2.csv" "$2.$1.csv" || fail "$1 processes find other numbers: $2"
+}
+
+lines='@tree --samples 3000 --field isotropic --rays 1500000 --standard-error --technique'
+paths='@cornell --samples 2000 --rays 1200000 --standard-error --technique'
+one box-tree-lines $lines box-tree
+for count in 2 3 4 7; do same $count box-tree-lines $lines box-tree; done
+one octree-paths $paths octree
+for count in 2 3; do same $count octree-paths $paths octree; done
+one sphere-cache-paths $paths sphere-cache
+same 3 sphere-cache-paths $paths sphere-cache
+one chosen-grid @cornell --samples 2000 --rays 1200000 --technique grid --pairs pairs.csv
+same 2 chosen-grid @cornell --samples 2000 --rays 1200000 --technique grid --pairs pairs.2.csv
+cmp pairs.csv pairs.2.csv || fail 'pairs'
+one few-rays @cornell --samples 500 --rays 20000
+same 2 few-rays @cornell --samples 500 --rays 20000
+
+# Runs until an error, also resumed with another number of processes.
+until='@cornell --samples 1000 --disc-radius 3% --target-noise 4%'
+one until $until
+for count in 2 3; do same $count until $until; done
+code=0
+"$detp" run $until --checkpoint state --time-limit 0.7 --quiet --threads 1 > /dev/null || code=$?
+if [ $code != 3 ] || [ ! -s state ]; then fail "the first part ended with code $code"; fi
+same 3 until $until --checkpoint state --resume
+
+# Verdicts.
+"$detp" validate --experiments lines,index,errors --samples 3000 --format json --quiet --threads 1 > one.json
+on 2 validate --experiments lines,index,errors --samples 3000 --format json --quiet > two.json || fail 'validate'
+for file in one two; do grep -v '"seconds"\|"ranks"\|"threads"' $file.json | sed 's/,$//' > $file.txt; done
+cmp one.txt two.txt || fail 'verdicts'
+
+# Errors are told once; commands that work on one process say so.
+told() {
+  code=0
+  on 2 "${@:3}" > out 2> errors || code=$?
+  if [ $code != "$1" ]; then fail "code $code, not $1: ${*:3}"; fi
+  if [ "$(grep -c '^detp: ' errors)" != 1 ] || ! grep -q "^detp: $2" errors; then fail "says $(cat errors)"; fi
+  if [ -s out ]; then fail "prints $(cat out)"; fi
+}
+told 2 'nothing.ply: cannot be opened' run nothing.ply
+told 2 'detp choose works on one process' choose @cornell
+told 2 'there is no technique "kd-tree"' run @cornell --technique kd-tree
+
+[ $failures = 0 ]

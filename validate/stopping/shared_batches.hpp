@@ -1,0 +1,37 @@
+#pragma once
+
+#include <deque>
+
+#include "detp/sim/ranks/farm.hpp"
+#include "job_batches.hpp"
+
+/// Batches of rays that ranks share.
+namespace detp::validate {
+
+/// Makes and searches the batches of a job: those that will follow one another on different ranks at the same time. The batches do not depend on the
+/// number of ranks. The job's own rays are searched on rank 0.
+class SharedBatches {
+ public:
+  /// Keeps references to job and search, which are the same on all ranks. `ranks`: null for this process alone.
+  SharedBatches(const Job& job, JobSearch& search, std::stop_token stop, sim::Ranks* ranks);
+
+  /// As JobBatches.
+  void skip(std::uint64_t batches, std::uint64_t rays) { rays_.skip(batches, rays); }
+  /// On rank 0; as FindBatch.
+  [[nodiscard]] std::optional<FoundBatch> next(std::uint64_t rays, std::uint64_t following);
+  /// On the other ranks. Returns when rank 0 needs no more.
+  void serve() { farm_->serve(); }
+
+ private:
+  [[nodiscard]] std::optional<FoundBatch> next_here(std::uint64_t rays);
+  [[nodiscard]] std::string find(const std::string& task);
+
+  JobSearch& search_;
+  JobBatches rays_;
+  std::size_t at_once_ = 1;
+  std::deque<FoundBatch> ahead_;
+  sim::Farm::Work work_;
+  std::optional<sim::Farm> farm_;
+};
+
+}  // namespace detp::validate
