@@ -69,6 +69,9 @@ class Problem {
   [[nodiscard]] bool one_power() const { return one_power_; }
   /// At least one ray is a segment.
   [[nodiscard]] bool segments() const { return segments_; }
+  /// Bytes that the caller keeps besides rays and discs, and that count against the memory budget (run_memory.hpp).
+  [[nodiscard]] double kept_bytes() const { return kept_bytes_; }
+  void set_kept_bytes(double bytes) { kept_bytes_ = bytes; }
 
  private:
   friend Problem make_problem(const PathRays&, std::span<const Disc>, bool, int, const std::stop_token&);
@@ -95,6 +98,7 @@ class Problem {
   double largest_power_ = 0;
   bool one_power_ = false;
   bool segments_ = false;
+  double kept_bytes_ = 0;
   /// The data to which rays_ or discs_ refer if directions or normals had to be normalised; otherwise null.
   std::shared_ptr<const std::vector<Ray>> own_rays_;
   std::shared_ptr<const std::vector<Disc>> own_discs_;

@@ -109,6 +109,8 @@ class Totals {
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
   [[nodiscard]] std::uint64_t photons() const { return photons_; }
   [[nodiscard]] double largest_power() const { return largest_power_; }
+  /// To be called before `finish`, if other discs were met by a photon of this power.
+  void set_largest_power(double power) { largest_power_ = power; }
 
  private:
   /// T(l, ·) of each disc.

@@ -7,25 +7,10 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/sim/search/irradiance.hpp"
+#include "ranked_part.hpp"
 
 namespace detp::sim {
 namespace {
-
-/// What a rank sends besides its totals; trivially copyable.
-struct PartOfOutcome {
-  Counts<std::uint64_t> counts;
-  Vectors vectors;
-  HitBatches batches;
-  Phases phases;
-  std::uint64_t total_hits = 0;
-  std::uint64_t done = 0;
-  std::uint64_t pairs = 0;
-  double read_seconds = 0;
-  double check_seconds = 0;
-  double bytes = 0;
-  double seconds = 0;
-  int stopped = 0;
-};
 
 void send_totals(Totals& totals, Ranks& ranks) {
   ranks.send_one(totals.shape(), 0);
@@ -38,52 +23,18 @@ Totals receive_totals(Ranks& ranks, int from) {
   return totals;
 }
 
-void send_part(const StreamedOutcome& found, double seconds, Ranks& ranks) {
-  const Outcome& outcome = found.outcome;
-  ranks.send_one(PartOfOutcome{.counts = outcome.counts,
-                               .vectors = outcome.vectors,
-                               .batches = outcome.batches,
-                               .phases = outcome.seconds,
-                               .total_hits = outcome.total_hits,
-                               .done = outcome.progress.done,
-                               .pairs = outcome.pairs.size(),
-                               .read_seconds = found.read_seconds,
-                               .check_seconds = found.check_seconds,
-                               .bytes = found.bytes,
-                               .seconds = seconds,
-                               .stopped = outcome.stopped ? 1 : 0},
-                 0);
-  ranks.send_all(std::span<const Pair>(outcome.pairs), 0);
-}
-
-Phases slower(const Phases& a, const Phases& b) {
-  return {std::max(a.prepare, b.prepare), std::max(a.order, b.order), std::max(a.build, b.build),
-          std::max(a.search, b.search)};
-}
-
 /// Adds the part of another rank, unless one before it was stopped.
-void add_part(Ranks& ranks, int from, Totals& totals, RankedOutcome& ranked) {
+void add_part_of(Ranks& ranks, int from, Totals& totals, RankedOutcome& ranked) {
   const auto part = ranks.receive_one<PartOfOutcome>(from);
-  std::vector<Pair> pairs(part.pairs);
-  ranks.receive_all(std::span(pairs), from);
+  const std::vector<Pair> pairs = receive_array<Pair>(ranks, from);
   const Totals more = receive_totals(ranks, from);
   ranked.seconds.push_back(part.seconds);
-  StreamedOutcome& all = ranked.found;
-  if (all.outcome.stopped) return;
+  Outcome& all = ranked.found.outcome;
+  if (all.stopped) return;
   totals.append(more);
-  Outcome one;
-  one.counts = part.counts;
-  one.vectors = part.vectors;
-  one.batches = part.batches;
-  one.total_hits = part.total_hits;
-  one.stopped = part.stopped != 0;
-  add_block(one, all.outcome);
-  all.outcome.seconds = slower(all.outcome.seconds, part.phases);
-  all.outcome.progress.done += part.done;
-  all.outcome.pairs.insert(all.outcome.pairs.end(), pairs.begin(), pairs.end());
-  all.read_seconds = std::max(all.read_seconds, part.read_seconds);
-  all.check_seconds = std::max(all.check_seconds, part.check_seconds);
-  all.bytes = std::max(all.bytes, part.bytes);
+  add(part, ranked);
+  all.progress.done += part.done;
+  all.pairs.insert(all.pairs.end(), pairs.begin(), pairs.end());
 }
 
 }  // namespace
@@ -128,7 +79,7 @@ double imbalance(std::span<const double> seconds) {
 
 RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
                            const StreamOptions& options, Ranks& ranks) {
-  if (ranks.count() == 1) return {run_streamed(discs, source, candidate, options)};
+  if (ranks.count() == 1) return {run_in_memory(discs, source, candidate, options)};
   const Stopwatch watch;
   double own_seconds = 0;
   Totals totals;
@@ -153,12 +104,13 @@ RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source,
     own_seconds = watch.seconds();
   });
   if (ranks.rank() != 0) {
-    send_part(found, own_seconds, ranks);
+    ranks.send_one(part_of(found, own_seconds), 0);
+    send_array(ranks, found.outcome.pairs, 0);
     send_totals(totals, ranks);
     return ranked;
   }
   ranked.seconds.push_back(own_seconds);
-  for (int from = 1; from < ranks.count(); ++from) add_part(ranks, from, totals, ranked);
+  for (int from = 1; from < ranks.count(); ++from) add_part_of(ranks, from, totals, ranked);
   Outcome& outcome = found.outcome;
   outcome.progress.of = source.size();
   totals.emitted(source.photons());
@@ -168,6 +120,18 @@ RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source,
   outcome.standard_error.clear();
   outcome.upper_bound.clear();
   return ranked;
+}
+
+RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
+                           const StreamOptions& options, Ranks& ranks, Share share) {
+  return share == Share::rays ? run_on_ranks(discs, source, candidate, options, ranks)
+                              : run_on_shared_discs(discs, source, candidate, options, ranks);
+}
+
+Share usual_share(std::size_t discs, int ranks) {
+  constexpr double bytes = 400;  // of a disc with its results, a box tree, and totals of 2¹² blocks
+  const bool fits = bytes * static_cast<double>(discs) <= memory_budget();
+  return fits || discs < static_cast<std::size_t>(ranks) ? Share::rays : Share::discs;
 }
 
 }  // namespace detp::sim

@@ -18,6 +18,9 @@ struct ShareOfRays {
 /// The share of each of `ranks`: whole blocks of photons, so that the largest number of rays is as small as can be.
 [[nodiscard]] std::vector<ShareOfRays> shares_of_rays(const RaySource& source, PhotonBlocks photon_blocks, int ranks);
 
+/// What ranks share.
+enum class Share { rays, discs };
+
 struct RankedOutcome {
   StreamedOutcome found;
   std::vector<double> seconds = {};  ///< on rank 0: those that each rank needed for its share; empty if there is one
@@ -35,4 +38,29 @@ struct RankedOutcome {
 [[nodiscard]] RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source,
                                          const Valid<Candidate>& candidate, const StreamOptions& options, Ranks& ranks);
 
+/// The same, but each rank searches all rays for its share of the discs, and has the memory that these need: along the Morton curve,
+/// by a cost of 1 + d²/mean d² each. For at least 2²¹ rays and four for each disc, the time of the first 2¹⁷ rays is measured; if its imbalance is over
+/// 15 %, discs are shared anew by it, once. Counts are those of all ranks: other than in one search of all discs, rays are loaded and culled on each.
+///
+/// Throws Stopped on all ranks if one was stopped. Throws std::invalid_argument for fewer discs than ranks.
+[[nodiscard]] RankedOutcome run_on_shared_discs(std::span<const Disc> discs, const RaySource& source,
+                                                const Valid<Candidate>& candidate, const StreamOptions& options,
+                                                Ranks& ranks);
+
+/// One process searches all rays for one part of the discs after another. No standard errors. Throws Stopped, and as run_streamed.
+[[nodiscard]] StreamedOutcome run_in_parts(std::span<const Disc> discs, const RaySource& source,
+                                           const Valid<Candidate>& candidate, const StreamOptions& options, int parts);
+
+/// run_streamed; if that does not fit in memory, and there are no pairs and standard errors, run_in_parts with as few parts as fit, a power of 2.
+/// Throws as run_streamed.
+[[nodiscard]] StreamedOutcome run_in_memory(std::span<const Disc> discs, const RaySource& source,
+                                            const Valid<Candidate>& candidate, const StreamOptions& options);
+
+/// One of both.
+[[nodiscard]] RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source,
+                                         const Valid<Candidate>& candidate, const StreamOptions& options, Ranks& ranks,
+                                         Share share);
+
+/// Rays, which balance best; discs where their index and sums would not fit in a rank's memory.
+[[nodiscard]] Share usual_share(std::size_t discs, int ranks);
 }  // namespace detp::sim

@@ -31,7 +31,8 @@ class StreamedSearch {
         run_(options.run),
         last_(options.last.value_or(source.size())),
         problem_(problem_of(discs)) {
-    const std::size_t block = options.block > 0 ? options.block : default_block(discs.size());
+    const std::size_t block =
+        options.block > 0 ? options.block : std::min(default_block(discs.size()), block_in_memory());
     streamed_.block = static_cast<std::size_t>(std::min<std::uint64_t>(block, last_ - options.first));
     predict_bytes();
     try {
@@ -53,6 +54,14 @@ class StreamedSearch {
   }
 
  private:
+  /// As many rays as take an eighth of the memory budget, but at least 2¹⁵.
+  static std::size_t block_in_memory() {
+    constexpr std::size_t least = std::size_t{1} << 15;
+    constexpr double rays_in_most = 1e12;
+    const double rays = std::min(memory_budget() / (8 * sizeof(Ray)), rays_in_most);
+    return std::max(least, std::bit_floor(static_cast<std::size_t>(rays)));
+  }
+
   Problem problem_of(std::span<const Disc> discs) {
     if (options_.first >= last_ || last_ > source_.size())
       throw std::invalid_argument("there must be at least one ray");
@@ -68,10 +77,12 @@ class StreamedSearch {
     const double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) +
                               (options_.run.standard_error ? error_bytes : 0);
     own_bytes_ =
-        static_cast<double>(problem_.discs().size()) * for_a_disc +
+        options_.kept_bytes + static_cast<double>(problem_.discs().size()) * for_a_disc +
         static_cast<double>(streamed_.block) * (sizeof(Ray) + (source_.numbered() ? sizeof(std::uint64_t) : 0));
     streamed_.bytes = own_bytes_;
     require_memory(fmt::format("{} discs and blocks of {} rays", problem_.discs().size(), streamed_.block), own_bytes_);
+    problem_.set_kept_bytes(own_bytes_ - static_cast<double>(problem_.discs().size()) * sizeof(Disc) -
+                            static_cast<double>(streamed_.block) * sizeof(Ray));
   }
 
   void search_all() {

@@ -13,11 +13,13 @@ namespace detp::sim {
 struct StreamOptions {
   RunOptions
       run;  ///< with run.totals, a part of the rays is added to these; then the outcome has no hits and irradiance
-  std::uint64_t first = 0;                         ///< number of the first ray that is searched
-  std::optional<std::uint64_t> last = {};          ///< one more than that of the last; default: all rays of the source
-  bool count_building = true;                      ///< the outcome's counts include those of building the index
-  bool front_facing = false;                       ///< count only rays that arrive at a disc's front
-  std::size_t block = 0;                           ///< rays in memory at a time; 0: default_block
+  std::uint64_t first = 0;                 ///< number of the first ray that is searched
+  std::optional<std::uint64_t> last = {};  ///< one more than that of the last; default: all rays of the source
+  bool count_building = true;              ///< the outcome's counts include those of building the index
+  bool front_facing = false;               ///< count only rays that arrive at a disc's front
+  std::size_t block =
+      0;  ///< rays in memory at a time; 0: default_block, or fewer so that they take an eighth of the memory budget
+  double kept_bytes = 0;                           ///< of the caller, that count against the memory budget, too
   std::function<void(double done)> progress = {};  ///< called before each block, 0 <= done < 1
 };
 

@@ -29,6 +29,10 @@ same 3 sphere-cache-paths $paths sphere-cache
 one chosen-grid @cornell --samples 2000 --rays 1200000 --technique grid --pairs pairs.csv
 same 2 chosen-grid @cornell --samples 2000 --rays 1200000 --technique grid --pairs pairs.2.csv
 cmp pairs.csv pairs.2.csv || fail 'pairs'
+for technique in box-tree octree sphere-cache grid; do
+  one discs-$technique @cornell --samples 2000 --rays 1100000 --standard-error --technique $technique
+  same 2 discs-$technique @cornell --samples 2000 --rays 1100000 --standard-error --technique $technique --share discs
+done
 one few-rays @cornell --samples 500 --rays 20000
 same 2 few-rays @cornell --samples 500 --rays 20000
 

@@ -33,13 +33,17 @@ class UnequalLines final : public RaySource {
   LinesOfField lines_;
 };
 
-void check_same(const StreamedOutcome& found, const StreamedOutcome& expected) {
+void check_same_hits(const StreamedOutcome& found, const StreamedOutcome& expected) {
   CHECK(found.outcome.hits == expected.outcome.hits);
   CHECK(found.outcome.irradiance == expected.outcome.irradiance);
   CHECK(found.outcome.standard_error == expected.outcome.standard_error);
   CHECK(found.outcome.upper_bound == expected.outcome.upper_bound);
   CHECK(found.outcome.pairs == expected.outcome.pairs);
   CHECK(found.outcome.total_hits == expected.outcome.total_hits);
+}
+
+void check_same(const StreamedOutcome& found, const StreamedOutcome& expected) {
+  check_same_hits(found, expected);
   CHECK(found.outcome.counts.loaded == expected.outcome.counts.loaded);
   CHECK(found.outcome.progress.done == expected.outcome.progress.done);
   CHECK(found.outcome.progress.of == expected.outcome.progress.of);
@@ -60,7 +64,7 @@ StreamOptions options_of(bool pairs) {
 TEST_SUITE("ranks") {
   TEST_CASE("any number of ranks finds the bytes of one process: lines, four techniques") {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20, 0.1, 3);
-    const UnequalLines lines(enclosing_sphere(discs), 1'700'000);  // seven blocks of photons
+    const UnequalLines lines(enclosing_sphere(discs), 1'700'000);  // 52 blocks of photons
     for (std::size_t i = 0; i < techniques.size(); ++i) {
       CAPTURE(describe(techniques[i]));
       const StreamedOutcome expected = run_streamed(discs, lines, techniques[i], options_of(true));
@@ -98,6 +102,63 @@ TEST_SUITE("ranks") {
       for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
       check_same(found, expected);
     }
+  }
+
+  TEST_CASE("ranks that share the discs find the bytes of one process: four techniques, lines and photon paths") {
+    std::vector<Disc> discs = uniform_discs(Body::cube, 2, 60, 0.1, 3);
+    for (std::size_t i = 0; i < discs.size(); i += 3) discs[i].radius = 0.02;
+    const UnequalLines lines(enclosing_sphere(discs), 300'000);
+    for (std::size_t i = 0; i < techniques.size(); ++i) {
+      CAPTURE(describe(techniques[i]));
+      const StreamedOutcome expected = run_streamed(discs, lines, techniques[i], options_of(true));
+      for (const int count : i == 0 ? std::vector{1, 2, 3, 4, 7, 60} : std::vector{static_cast<int>(i) + 1}) {
+        CAPTURE(count);
+        StreamedOutcome found;
+        const auto thrown = on_ranks(count, [&](Ranks& ranks) {
+          RankedOutcome own = run_on_shared_discs(discs, lines, techniques[i], options_of(true), ranks);
+          if (ranks.rank() == 0) found = std::move(own.found);
+        });
+        for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+        check_same_hits(found, expected);
+      }
+      StreamOptions without_errors = options_of(true);
+      without_errors.run.standard_error = false;
+      check_same_hits(run_in_parts(discs, lines, techniques[i], without_errors, 3),
+                      run_streamed(discs, lines, techniques[i], without_errors));
+      CHECK_THROWS_AS(static_cast<void>(run_in_parts(discs, lines, techniques[i], options_of(true), 3)),
+                      std::invalid_argument);
+    }
+    const Scene scene = open_scene({"@cornell", 200, 1, {}, {}});
+    discs.clear();
+    for (const Sample& sample : scene.samples) discs.push_back({sample.position, sample.normal, 0.05});
+    const PhotonSource paths(scene, 200'000, 1);
+    const StreamedOutcome expected = run_streamed(discs, paths, techniques[0], options_of(true));
+    StreamedOutcome found;
+    const auto thrown = on_ranks(3, [&](Ranks& ranks) {
+      RankedOutcome own = run_on_shared_discs(discs, paths, techniques[0], options_of(true), ranks);
+      if (ranks.rank() == 0) found = std::move(own.found);
+    });
+    for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+    check_same_hits(found, expected);
+    const auto refused = on_ranks(201, [&](Ranks& ranks) {
+      static_cast<void>(run_on_shared_discs(discs, paths, techniques[0], options_of(true), ranks));
+    });
+    CHECK_THROWS_AS(std::rethrow_exception(refused[0]), std::invalid_argument);
+  }
+
+  TEST_CASE("discs that are shared anew, because no ray meets half of them, find the same bytes") {
+    std::vector<Disc> discs = uniform_discs(Body::cube, 2, 4000, 0.05, 3);
+    const UnequalLines lines(enclosing_sphere(discs), 2'200'000);
+    const std::vector<Disc> near = discs;
+    for (const Disc& disc : near) discs.push_back({disc.centre + glm::dvec3{10, 0, 0}, disc.normal, disc.radius});
+    const StreamedOutcome expected = run_streamed(discs, lines, techniques[0], options_of(false));
+    StreamedOutcome found;
+    const auto thrown = on_ranks(2, [&](Ranks& ranks) {
+      RankedOutcome own = run_on_shared_discs(discs, lines, techniques[0], options_of(false), ranks);
+      if (ranks.rank() == 0) found = std::move(own.found);
+    });
+    for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+    check_same_hits(found, expected);
   }
 
   TEST_CASE("shares are whole blocks of photons, follow one another, and are as equal as can be") {

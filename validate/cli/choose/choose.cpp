@@ -42,7 +42,14 @@ struct ChooseOptions {
   bool verbose = false;
   std::optional<std::string> checkpoint;
   bool resume = false;
+  RanksOptions ranks;
 };
+
+/// The standard error of the choice's predicted seconds, as far as it is known.
+double search_error(const ChooseAnswer& answer) {
+  const Prediction& best = answer.choice.best();
+  return answer.by_sample() ? best.error : best.time.total() * answer.costs.relative_error_of(best.candidate.technique);
+}
 
 /// The exact techniques that may not be chosen: those of --disable, and those that --technique does not name. Throws
 /// std::invalid_argument for an unknown name, for one in --technique that is not exact, and if none is left.
@@ -167,6 +174,9 @@ std::optional<Rigor> requested_rigor(const ChooseOptions& options) {
 }
 
 void check_files(const ChooseOptions& options, const CommonOptions& common) {
+  if (options.map && options.ranks.ranks) throw std::invalid_argument("--ranks is for one workload, not for --map");
+  if (options.ranks.ranks) require_count("--ranks", *options.ranks.ranks, 1, 1e6);
+  require_positive("--network", options.ranks.bytes_per_second);
   if (options.checkpoint && !(options.map && options.analyze))
     throw std::invalid_argument("--checkpoint keeps the measured cells of --map with --analyze");
   if (options.resume && !options.checkpoint)
@@ -203,8 +213,10 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
   const CostTable& costs = costs_in_use.of(engine);
   validate::JobRequest request = options.workload.request(common);
   request.workload_only = !analyze;
+  request.keep_scene = options.ranks.ranks.has_value();
   Result result;
   ChooseAnswer answer;
+  answer.costs = costs;
   if (request.numbers_alone() && rigor == Rigor::pilot)
     throw std::invalid_argument("--rigor pilot needs rays: give a scene or files, or --rigor estimate");
   validate::Question question{.rigor = rigor, .threads = threads, .disabled = disabled, .stop = stop};
@@ -217,6 +229,9 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
     result.stopped = decide(answer, question, costs);
     result.inputs = numbers_json(answer.workload);
     answer.title = describe_numbers(answer.workload);
+    if (options.ranks.ranks)
+      answer.ranks = choose_ranks(options.ranks, answer.workload, 1, false, 0, answer.choice.best(),
+                                  search_error(answer), making_time(answer.workload, request.seed, stop));
   } else {
     const ProgressLine progress(common.quiet);
     const double share_of_job = analyze ? 0.3 : 1;  // a guess
@@ -254,6 +269,14 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
     }
     result.inputs = to_json(job, request);
     answer.title = describe(job);
+    if (options.ranks.ranks && !result.stopped) {
+      const bool photon_paths = job.field == sim::Field::photons;
+      const double photons =
+          photon_paths ? static_cast<double>(job.photon_count) / static_cast<double>(job.rays.size()) : 1;
+      answer.ranks =
+          choose_ranks(options.ranks, answer.workload, photons, photon_paths, static_cast<double>(job.triangles),
+                       answer.choice.best(), search_error(answer), making_time(job, stop));
+    }
     answer.warnings = job.warnings;
   }
   result.inputs["unit_costs"] = to_json(costs);
@@ -262,7 +285,7 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
   result.inputs["engine"] = name(engine);
   result.inputs["disabled"] = names_json(disabled);
   result.inputs["threads"] = threads;
-  answer.costs = costs;
+  result.inputs["ranks"] = options.ranks.ranks ? Json(*options.ranks.ranks) : Json();
   answer.costs_origin = costs_in_use.origin;
   result.json = to_json(answer);
   result.text = to_text(answer, common.screen(), {.verbose = options.verbose, .measured = options.analyze});
@@ -291,6 +314,10 @@ Command choose_command(CLI::App& program) {
       ->delimiter(',');
   app->add_option("--engine", options->engine, engine_help);
   app->add_flag("--analyze", options->analyze, "run the candidates: predicted, counted and measured, and the regret");
+  add_count(*app, "--ranks", options->ranks.ranks,
+            "also predict what so many processes (mpirun) take, each with --threads; default: not");
+  add_number(*app, "--network", options->ranks.bytes_per_second,
+             "bytes a second between two processes, for --ranks; default: 1.25e9, 10 Gbit/s");
   app->add_flag("--map", options->map,
                 "the fastest technique for each of several --rays and --disc-radius (lists or ranges; default: 1e2 … "
                 "3e5 and 0.25% … 16%); with --analyze also measured; -o FILE.svg draws it");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "choose_ranks.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/effects/observe.hpp"
 #include "detp/validate/choice/analysis.hpp"
@@ -29,6 +30,7 @@ struct ChooseAnswer {
   double evidence_seconds = 0;  ///< for measuring rays and discs, as far as the choice needs it
   double choosing_seconds = 0;  ///< with evidence and pilot
   std::vector<std::string> warnings;
+  std::optional<RanksAnswer> ranks;  ///< of --ranks
 
   /// Counted in a sample of rays, not by closed forms alone.
   [[nodiscard]] bool by_sample() const { return choice.rigor != Rigor::estimate; }

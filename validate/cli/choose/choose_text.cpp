@@ -101,13 +101,14 @@ std::string costs_line(const ChooseAnswer& answer, bool verbose) {
                      verbose || plain ? fmt::format("; engine {}", name(answer.costs.engine)) : "");
 }
 
+std::string paragraph(const std::string& text, const Screen& screen) { return wrapped(text, screen.text_width(), 10); }
+
 std::string choice_lines(const ChooseAnswer& answer, const Screen& screen) {
   const bool measured = answer.analysis && answer.analysis->best;
   return (measured ? "" : choice_text(predicted_choice(answer), screen)) +
-         (answer.analysis ? measured_lines(answer, screen) : "");
+         (answer.analysis ? measured_lines(answer, screen) : "") +
+         (answer.ranks ? paragraph(ranks_line(*answer.ranks), screen) : "");
 }
-
-std::string paragraph(const std::string& text, const Screen& screen) { return wrapped(text, screen.text_width(), 10); }
 
 std::size_t lines_of(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));

@@ -42,6 +42,7 @@ struct RunOptions {
   std::optional<std::string> pairs;
   bool verbose = false;
   TargetOptions target;
+  std::optional<std::string> share;
 };
 
 sim::Estimator parse_estimator(const std::string& text) {
@@ -111,6 +112,12 @@ Requested requested(const CandidateOptions& options, sim::Estimator estimator, c
           sim::thread_count(threads)};
 }
 
+/// Nothing if the option is not set. Throws std::invalid_argument for an unknown name.
+std::optional<sim::Share> share_of(const RunOptions& options) {
+  if (!options.share) return std::nullopt;
+  return one_of("--share", *options.share, {"rays", "discs"}) == "rays" ? sim::Share::rays : sim::Share::discs;
+}
+
 sim::EstimateRequest request_of(const RunAnswer& answer, const validate::Job& job) {
   sim::EstimateRequest request{
       .estimator = answer.estimator, .candidate = answer.candidate, .mesh = job.scene ? &job.scene->mesh : nullptr};
@@ -166,6 +173,7 @@ void check_options(const RunOptions& options, std::size_t rows) {
     if (options.pairs || options.standard_error || options.repeat > 0)
       throw std::invalid_argument("a run until an error has no --pairs, --standard-error and --repeat");
   }
+  static_cast<void>(share_of(options));
   if (options.target.checkpoint && (!options.target.given() || rows > 1))
     throw std::invalid_argument("--checkpoint keeps one run with --target-noise or --target-error");
   if (options.target.resume && !options.target.checkpoint)
@@ -279,18 +287,19 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
                       .stop = stop,
                       .threads = by_pilot ? common.threads : choice.threads};
   run.standard_error = options.standard_error;
+  const Together together{ranks, share_of(options)};
   const double share_of_first = 1.0 / (1 + options.repeat);
   if (by_pilot) {
     answer.run.prepare_seconds = job.check_seconds;
     answer.run.rays_in_memory = job.rays.size();
     choose_and_run(answer, question, costs, run, sim::part_of(progress, 0, share_of_first));
   } else {
-    answer.run = run_job(job, request_of(answer, job), run, sim::part_of(progress, 0, share_of_first), ranks);
+    answer.run = run_job(job, request_of(answer, job), run, sim::part_of(progress, 0, share_of_first), together);
   }
   run.threads = answer.threads;
   run.count = run.pairs = false;
   answer.timing = time_runs(job, request_of(answer, job), answer.run, answer.run.outcome.stopped ? 0 : options.repeat,
-                            run, sim::part_of(progress, share_of_first, 1), ranks);
+                            run, sim::part_of(progress, share_of_first, 1), together);
   return answer;
 }
 
@@ -413,6 +422,8 @@ Command run_command(CLI::App& program) {
       "surfaces "
       "there; triangle-hits: photons of a triangle, over its area; default: disc");
   options->costs.add_calibration_to(*app);
+  app->add_option("--share", options->share,
+                  "what several processes share, rays or discs; default: rays, or discs if they do not fit in memory");
   app->add_flag("--verbose", options->verbose,
                 "also print effects, and the counts with their predictions; default: a short answer");
   add_number(*app, "--repeat", options->repeat,

@@ -154,7 +154,10 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                {"warnings", job.warnings},
                {"stopped", outcome.stopped}});
   if (const auto& seconds = answer.run.rank_seconds; !seconds.empty())
-    json["ranks"] = {{"count", seconds.size()}, {"seconds", seconds}, {"imbalance", sim::imbalance(seconds)}};
+    json["ranks"] = {{"count", seconds.size()},
+                     {"share", answer.run.share == sim::Share::rays ? "rays" : "discs"},
+                     {"seconds", seconds},
+                     {"imbalance", sim::imbalance(seconds)}};
   if (answer.until && answer.until->result.reason == validate::StopReason::time) json["stopped"] = true;
   return json;
 }
@@ -316,9 +319,10 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
                   timing.total(), timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
                   repeats_text(timing), job.read_seconds, job.trace_seconds + answer.run.trace_seconds));
   if (const auto& seconds = answer.run.rank_seconds; !seconds.empty())
-    add(fmt::format("ranks     {} processes, {:.3g} to {:.3g} s each; the slowest took {:.2g} % more than the mean",
-                    seconds.size(), *std::ranges::min_element(seconds), *std::ranges::max_element(seconds),
-                    100 * sim::imbalance(seconds)));
+    add(fmt::format(
+        "ranks     {} processes share the {}, {:.3g} to {:.3g} s each; the slowest took {:.2g} % more than the mean",
+        seconds.size(), answer.run.share == sim::Share::rays ? "rays" : "discs", *std::ranges::min_element(seconds),
+        *std::ranges::max_element(seconds), 100 * sim::imbalance(seconds)));
   return verbose ? text + "\n" + counts_table(job, answer, screen) : text;
 }
 

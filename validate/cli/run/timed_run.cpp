@@ -27,7 +27,7 @@ double predicted_work(const Workload& workload, const Candidate& candidate, Engi
 }  // namespace
 
 TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, const sim::RunOptions& options,
-                 const sim::ReportPhase& progress, sim::Ranks* ranks) {
+                 const sim::ReportPhase& progress, const Together& together) {
   const Candidate& candidate = request.candidate;
   const bool pairs = record_of(request.estimator).finds_pairs;
   const std::string doing(pairs ? name(candidate.technique) : name(request.estimator));
@@ -42,22 +42,24 @@ TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, 
   if (progress && work == 0) reporting.progress = [&](double share) { progress({doing, share, share}); };
   if (job.stream) {
     sim::OneRank one;
-    sim::RankedOutcome ranked =
-        sim::run_on_ranks(job.discs, *job.stream, candidate,
-                          {.run = reporting, .front_facing = job.front_facing, .progress = show}, ranks ? *ranks : one);
+    sim::Ranks& ranks = together.ranks != nullptr ? *together.ranks : one;
+    const sim::Share share = together.share.value_or(sim::usual_share(job.discs.size(), ranks.count()));
+    const sim::StreamOptions stream{.run = reporting, .front_facing = job.front_facing, .progress = show};
+    sim::RankedOutcome ranked = sim::run_on_ranks(job.discs, *job.stream, candidate, stream, ranks, share);
     sim::StreamedOutcome& streamed = ranked.found;
-    return {std::move(streamed.outcome), streamed.check_seconds, streamed.read_seconds, streamed.block,
-            std::move(ranked.seconds)};
+    return {std::move(streamed.outcome), streamed.check_seconds,
+            streamed.read_seconds,       streamed.block,
+            std::move(ranked.seconds),   share};
   }
   return {sim::estimate(job.problem(), request, reporting), job.check_seconds, 0, job.rays.size()};
 }
 
 Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const TimedRun& counted, int repeat,
-                 const sim::RunOptions& options, const sim::ReportPhase& progress, sim::Ranks* ranks) {
+                 const sim::RunOptions& options, const sim::ReportPhase& progress, const Together& together) {
   std::vector<Timing> timings;
   const double each = 1.0 / std::max(1, repeat);
   for (int i = 0; i < repeat; ++i) {
-    const TimedRun run = run_job(job, request, options, sim::part_of(progress, i * each, (i + 1) * each), ranks);
+    const TimedRun run = run_job(job, request, options, sim::part_of(progress, i * each, (i + 1) * each), together);
     if (run.outcome.stopped) break;
     timings.push_back({run.outcome.seconds, run.prepare_seconds, {}});
   }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/estimate/estimate.hpp"
+#include "detp/sim/technique/ranked.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/job/job.hpp"
 
@@ -16,13 +18,20 @@ struct TimedRun {
   double trace_seconds = 0;               ///< time for making the rays of a stream
   std::size_t rays_in_memory = 0;         ///< maximum number of rays in memory at a time
   std::vector<double> rank_seconds = {};  ///< of each rank (sim::RankedOutcome); empty if one process searched
+  sim::Share share = sim::Share::rays;    ///< among ranks
 };
 
-/// Runs the estimator; the rays of a stream by its technique, which finds pairs. Ranks share the rays of a stream; on all but rank 0 the
+/// The processes that search together.
+struct Together {
+  sim::Ranks* ranks = nullptr;           ///< null: this one alone
+  std::optional<sim::Share> share = {};  ///< default: usual_share
+};
+
+/// Runs the estimator; the rays of a stream by its technique, which finds pairs. Ranks share the rays of a stream, or the discs; on all but rank 0 the
 /// outcome is that of run_on_ranks there. Other searches do not know of ranks.
 [[nodiscard]] TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request,
                                const sim::RunOptions& options, const sim::ReportPhase& progress,
-                               sim::Ranks* ranks = nullptr);
+                               const Together& together = {});
 
 /// Times from discs and rays in memory to irradiance in memory, in seconds.
 struct Timing {
@@ -38,6 +47,6 @@ struct Timing {
 /// of the slower of the two middle runs.
 [[nodiscard]] Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const TimedRun& counted,
                                int repeat, const sim::RunOptions& options, const sim::ReportPhase& progress,
-                               sim::Ranks* ranks = nullptr);
+                               const Together& together = {});
 
 }  // namespace detp::cli

@@ -1,0 +1,101 @@
+#include "ranks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "detp/model/vocabulary/checks.hpp"
+
+namespace detp::model {
+namespace {
+
+constexpr double disc_bytes = 56;
+constexpr double index_bytes = 140;  // of a disc in a box tree: a copy of the disc in its order, and nodes
+constexpr double sums_bytes = 32;    // under way
+constexpr double result_bytes = 16;  // hits and irradiance
+constexpr double error_sums = 56;    // with standard errors
+constexpr double error_results = 16;
+constexpr double ray_bytes = 64 + 8 + 2 * 28;  // in a block: the ray, its photon, and two lists
+constexpr double number_bytes = 4;
+
+double blocks_of(const SharedSearch& search) {
+  return std::max(1.0, std::ceil(search.photons / search.photons_in_block));
+}
+
+double levels_of(double blocks) { return std::max(1.0, std::ceil(std::log2(blocks + 1))); }
+
+double block_of_rays(const SharedSearch& search) {
+  const double block = std::clamp(std::exp2(std::ceil(std::log2(4 * search.discs))), 0x1p20, 0x1p22);
+  return ray_bytes * std::min(search.rays, block);
+}
+
+/// Of all that a search of so many discs keeps, results besides.
+double search_bytes(const SharedSearch& search, double discs, double levels) {
+  const double errors = search.standard_errors ? error_sums + 8 * levels : 0;
+  return discs * (index_bytes + sums_bytes + 8 * levels + errors);
+}
+
+double results_bytes(const SharedSearch& search) {
+  return search.discs * (result_bytes + (search.standard_errors ? error_results : 0));
+}
+
+double fixed_bytes(const SharedSearch& search) {
+  return search.scene_bytes + search.discs * disc_bytes + block_of_rays(search) + results_bytes(search);
+}
+
+void check_ranks(const SharedSearch& search, double ranks, const Network& network) {
+  check(search);
+  require_count("number of ranks", ranks, 1, 1e9);
+  require_positive("bytes per second of the network", network.bytes_per_second);
+  require_non_negative("latency of the network", network.latency);
+}
+
+double collect_seconds(double ranks, double bytes, const Network& network) {
+  return (ranks - 1) * (network.latency + bytes / network.bytes_per_second);
+}
+
+}  // namespace
+
+void check(const SharedSearch& search) {
+  require_count("number of rays", search.rays, 1, 1e18);
+  require_positive("number of photons", search.photons);
+  require_count("number of discs", search.discs, 1, 1e18);
+  require_count("photons in a block", search.photons_in_block, 1, 1e18);
+  require_non_negative("seconds for making rays", search.make_seconds);
+  require_non_negative("seconds for the index", search.build_seconds);
+  require_non_negative("seconds for the search", search.search_seconds);
+  require_non_negative("bytes of the scene", search.scene_bytes);
+}
+
+SharedTime share_rays(const SharedSearch& search, double ranks, const Network& network) {
+  check_ranks(search, ranks, network);
+  const double blocks = blocks_of(search);
+  const double own_blocks = std::ceil(blocks / ranks);
+  const double share = own_blocks / blocks;
+  const double subtrees = std::max(1.0, 2 * std::log2(own_blocks));
+  const double errors = search.standard_errors ? error_sums + 8 * subtrees : 0;
+  const double message = ranks > 1 ? search.discs * (sums_bytes + 8 * subtrees + errors) : 0;
+  return {.count = search.photon_paths ? search.make_seconds / ranks : 0,
+          .make = share * search.make_seconds,
+          .build = search.build_seconds,
+          .search = share * search.search_seconds,
+          .collect = collect_seconds(ranks, message, network),
+          .memory = fixed_bytes(search) + search_bytes(search, search.discs, levels_of(blocks)) + message,
+          .traffic = (ranks - 1) * message};
+}
+
+SharedTime share_discs(const SharedSearch& search, double ranks, const Network& network) {
+  check_ranks(search, ranks, network);
+  const double discs = std::ceil(search.discs / ranks);
+  const double result = number_bytes + result_bytes + (search.standard_errors ? error_results : 0);
+  const double message = ranks > 1 ? discs * result : 0;
+  return {
+      .count = search.photon_paths ? search.make_seconds / ranks : 0,
+      .make = search.make_seconds,
+      .build = search.build_seconds / ranks,
+      .search = search.search_seconds / ranks,
+      .collect = collect_seconds(ranks, message, network),
+      .memory = fixed_bytes(search) + search_bytes(search, discs, levels_of(blocks_of(search))) + discs * disc_bytes,
+      .traffic = (ranks - 1) * message};
+}
+
+}  // namespace detp::model

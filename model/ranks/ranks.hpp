@@ -1,0 +1,65 @@
+#pragma once
+
+/// Processes (ranks) that share a search.
+namespace detp::model {
+
+/// A search, as one process would do it. Seconds are those on the threads that each rank has.
+struct SharedSearch {
+  double rays = 0;
+  double photons = 0;  ///< emitted; lines: as many as rays
+  double discs = 0;
+  double photons_in_block = 1 << 18;  ///< the smallest part of the rays that is shared
+  bool photon_paths = false;          ///< they are made once more, to count them
+  bool standard_errors = false;
+  double make_seconds = 0;  ///< for making all rays once
+  double build_seconds = 0;
+  double search_seconds = 0;
+  double scene_bytes = 0;  ///< of what every rank has besides discs: the mesh and its ray caster
+};
+
+/// Point to point, between rank 0 and another.
+struct Network {
+  double bytes_per_second = 1.25e9;  ///< 10 Gbit/s
+  double latency = 50e-6;            ///< seconds for a message
+};
+
+/// What a rank needs; of the slowest.
+struct SharedTime {
+  double count = 0;  ///< seconds for counting photons
+  double make = 0;   ///< for making its rays
+  double build = 0;  ///< of an index
+  double search = 0;
+  double collect = 0;  ///< until rank 0 has what the others found
+  double memory = 0;   ///< bytes of rank 0, which has the result
+  double traffic = 0;  ///< bytes that rank 0 receives; each of the others sends its part of them
+
+  [[nodiscard]] double total() const { return count + make + build + search + collect; }
+};
+
+/// Ranks share the rays: each has whole blocks of photons, and an index of all discs.
+///
+///     T = [T_m/P] + s (T_m + T_s) + T_b + (P - 1)(L + m/W)        s = ⌈B/P⌉/B
+///     m = n_P (32 + 8 l)        l = 2 log₂(B/P), at least 1
+///
+///   where  T_m, T_b, T_s  seconds for making rays, for the index and for the search; [T_m/P] only of photon paths
+///          B      number of blocks of photons
+///          m      bytes that a rank sends: its sums under way, and those of the largest subtrees of its blocks; with standard errors
+///                 56 + 8 l more for each disc
+///          L, W   latency and bytes per second of the network
+///
+/// The search is taken to be proportional to the rays: that of ⌈B/P⌉ blocks costs s T_s. Throws std::invalid_argument unless P >= 1, and as
+/// check(SharedSearch).
+[[nodiscard]] SharedTime share_rays(const SharedSearch& search, double ranks, const Network& network = {});
+
+/// Ranks share the discs: each makes all rays, and has an index and sums of its own discs.
+///
+///     T = [T_m/P] + T_m + (T_b + T_s)/P + (P - 1)(L + n_P/P · 20/W)
+///
+/// The bytes are the numbers of the discs, their hits and irradiance; with standard errors 16 more. A lower bound: culls near the root of the
+/// index are made on each rank, which n_P/P > 2¹⁷ makes small. Throws as share_rays.
+[[nodiscard]] SharedTime share_discs(const SharedSearch& search, double ranks, const Network& network = {});
+
+/// Throws std::invalid_argument unless counts are >= 1 and seconds, bytes >= 0, all finite.
+void check(const SharedSearch& search);
+
+}  // namespace detp::model
