@@ -12,7 +12,7 @@ namespace detp::sim {
 namespace {
 
 /// How a task ended, before its result or message.
-enum class End { well, stopped, failed };
+enum class TaskEnd { well, stopped, failed };
 
 }  // namespace
 
@@ -57,11 +57,11 @@ std::vector<std::string> Farm::all(const std::vector<std::string>& tasks, const 
     }
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     if (chosen[i] == 0) continue;
-    const auto end = ranks_.receive_one<End>(chosen[i]);
+    const auto end = ranks_.receive_one<TaskEnd>(chosen[i]);
     results[i] = receive_text(ranks_, chosen[i]);
-    if (thrown || end == End::well) continue;
-    thrown = end == End::stopped ? std::make_exception_ptr(Stopped(results[i]))
-                                 : std::make_exception_ptr(RankFailed(chosen[i], results[i]));
+    if (thrown || end == TaskEnd::well) continue;
+    thrown = end == TaskEnd::stopped ? std::make_exception_ptr(Stopped(results[i]))
+                                     : std::make_exception_ptr(RankFailed(chosen[i], results[i]));
   }
   if (thrown) std::rethrow_exception(thrown);
   return results;
@@ -71,16 +71,16 @@ void Farm::serve() {
   while (const auto count = ranks_.receive_one<std::size_t>(0)) {
     std::vector<std::string> tasks;
     for (std::size_t i = 0; i < count; ++i) tasks.push_back(receive_text(ranks_, 0));
-    End end = End::well;
+    TaskEnd end = TaskEnd::well;
     std::string result;
     for (const std::string& task : tasks) {
-      if (end == End::well) try {
+      if (end == TaskEnd::well) try {
           result = work_(task);
         } catch (const Stopped& stopped) {
-          end = End::stopped;
+          end = TaskEnd::stopped;
           result = stopped.what();
         } catch (const std::exception& error) {
-          end = End::failed;
+          end = TaskEnd::failed;
           result = error.what();
         }
       ranks_.send_one(end, 0);

@@ -126,7 +126,8 @@ std::vector<Totals::Subtree> Totals::subtrees() const {
 }
 
 Totals::Shape Totals::shape() const {
-  return {discs_.size(), origin_, block_, rays_, photons_, keeps_errors_ ? std::uint64_t{1} : 0, largest_power_, photon_blocks()};
+  return {discs_.size(),  origin_,        block_, rays_, photons_, keeps_errors_ ? std::uint64_t{1} : 0,
+          largest_power_, photon_blocks()};
 }
 
 Totals Totals::of_shape(const Shape& shape) {

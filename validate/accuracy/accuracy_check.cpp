@@ -11,6 +11,7 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/ranks/farm.hpp"
+#include "detp/validate/base/json_bytes.hpp"
 #include "judged_samples.hpp"
 
 namespace detp::validate {
@@ -82,12 +83,6 @@ struct RerunResult {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RerunTask, setting, rays, seed)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RerunResult, seconds, irradiance)
 
-std::string bytes_of(const nlohmann::json& json) {
-  std::string bytes;
-  nlohmann::json::to_cbor(json, bytes);
-  return bytes;
-}
-
 /// Makes reruns on one process or on ranks.
 class RerunMaker {
  public:
@@ -95,9 +90,7 @@ class RerunMaker {
       : scene_(scene),
         options_(options),
         judged_(judged_samples(scene, options.reference, most_samples_kept)),
-        work_([this](const std::string& task) {
-          return bytes_of(make(nlohmann::json::from_cbor(task).get<RerunTask>()));
-        }),
+        work_([this](const std::string& task) { return json_bytes(make(from_json_bytes<RerunTask>(task))); }),
         farm_(options.ranks != nullptr ? *options.ranks : one_, work_) {}
 
   [[nodiscard]] const JudgedSamples& judged() const { return judged_; }
@@ -109,10 +102,9 @@ class RerunMaker {
   [[nodiscard]] std::vector<RerunResult> make(const AccuracyPoint& point, std::uint64_t first, std::uint64_t last) {
     std::vector<std::string> tasks;
     for (std::uint64_t seed = first; seed < last; ++seed)
-      tasks.push_back(bytes_of(RerunTask{point.setting(), point.rays, seed}));
+      tasks.push_back(json_bytes(RerunTask{point.setting(), point.rays, seed}));
     std::vector<RerunResult> results;
-    for (const std::string& result : farm_.all(tasks))
-      results.push_back(nlohmann::json::from_cbor(result).get<RerunResult>());
+    for (const std::string& result : farm_.all(tasks)) results.push_back(from_json_bytes<RerunResult>(result));
     return results;
   }
 

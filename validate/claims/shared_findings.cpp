@@ -4,6 +4,7 @@
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/validate/base/json_bytes.hpp"
 #include "finding_json.hpp"
 
 namespace detp::validate {
@@ -11,21 +12,10 @@ namespace detp::validate {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Repetition, step, number)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FoundOnce, findings, seconds, stopped)
 
-namespace {
-
-/// Binary, because text has no infinite numbers.
-std::string bytes_of(const nlohmann::json& json) {
-  std::string bytes;
-  nlohmann::json::to_cbor(json, bytes);
-  return bytes;
-}
-
-}  // namespace
-
 SharedFindings::SharedFindings(const Experiment& experiment, std::span<const ExperimentStep> steps)
-    : experiment_(experiment), steps_(steps), work_([this](const std::string& task) {
-        return bytes_of(find_here(nlohmann::json::from_cbor(task).get<Repetition>()));
-      }) {
+    : experiment_(experiment),
+      steps_(steps),
+      work_([this](const std::string& task) { return json_bytes(find_here(from_json_bytes<Repetition>(task))); }) {
   if (experiment.ranks != nullptr) farm_.emplace(*experiment.ranks, work_);
 }
 
@@ -41,9 +31,8 @@ std::vector<FoundOnce> SharedFindings::find(const std::vector<Repetition>& repet
     return found;
   }
   std::vector<std::string> tasks;
-  for (const Repetition& repetition : repetitions) tasks.push_back(bytes_of(repetition));
-  for (const std::string& result : farm_->all(tasks, costs))
-    found.push_back(nlohmann::json::from_cbor(result).get<FoundOnce>());
+  for (const Repetition& repetition : repetitions) tasks.push_back(json_bytes(repetition));
+  for (const std::string& result : farm_->all(tasks, costs)) found.push_back(from_json_bytes<FoundOnce>(result));
   return found;
 }
 

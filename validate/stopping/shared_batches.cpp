@@ -3,25 +3,20 @@
 #include <utility>
 
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/validate/base/json_bytes.hpp"
 #include "until_json.hpp"
 
 namespace detp::validate {
 namespace {
 
 /// A place, and the number of rays.
-struct Task {
+struct BatchTask {
   std::uint64_t batch = 0;
   std::uint64_t made = 0;
   std::uint64_t rays = 0;
 };
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Task, batch, made, rays)
-
-std::string bytes_of(const Task& task) {
-  std::string bytes;
-  nlohmann::json::to_cbor(task, bytes);
-  return bytes;
-}
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BatchTask, batch, made, rays)
 
 }  // namespace
 
@@ -38,7 +33,7 @@ std::optional<FoundBatch> SharedBatches::next(std::uint64_t rays, std::uint64_t 
     if (!place) return next_here(rays);
     std::vector<std::string> tasks;
     for (std::uint64_t i = 0; i <= following && tasks.size() < at_once_; ++i)
-      tasks.push_back(bytes_of(Task{place->batch + i, place->made + i * rays, rays}));
+      tasks.push_back(json_bytes(BatchTask{place->batch + i, place->made + i * rays, rays}));
     for (const std::string& found : farm_->all(tasks)) ahead_.push_back(found_batch_of(found));
   }
   FoundBatch batch = std::move(ahead_.front());
@@ -56,7 +51,7 @@ std::optional<FoundBatch> SharedBatches::next_here(std::uint64_t rays) {
 }
 
 std::string SharedBatches::find(const std::string& task) {
-  const Task one = nlohmann::json::from_cbor(task).get<Task>();
+  const BatchTask one = from_json_bytes<BatchTask>(task);
   const sim::Stopwatch watch;
   const RayBatch made = rays_.at({one.batch, one.made}, one.rays);
   const double make_seconds = watch.seconds();

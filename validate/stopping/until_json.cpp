@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "detp/validate/base/json_bytes.hpp"
 #include "detp/validate/checkpoint/counts_json.hpp"
 
 namespace detp::sim {
@@ -30,12 +31,8 @@ SavedRun saved_run_of(const nlohmann::json& json) {
   return {json.at("state").get<UntilState>(), json.at("so_far").get<ExecutedUntil>()};
 }
 
-std::string bytes_of(const FoundBatch& found) {
-  std::string bytes;
-  nlohmann::json::to_cbor(found, bytes);  // binary: exact and short
-  return bytes;
-}
+std::string bytes_of(const FoundBatch& found) { return json_bytes(found); }
 
-FoundBatch found_batch_of(const std::string& bytes) { return nlohmann::json::from_cbor(bytes).get<FoundBatch>(); }
+FoundBatch found_batch_of(const std::string& bytes) { return from_json_bytes<FoundBatch>(bytes); }
 
 }  // namespace detp::validate

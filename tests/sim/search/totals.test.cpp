@@ -137,7 +137,8 @@ TEST_SUITE("reference value") {
     const Outcome outcome = run(make_problem(rays, discs), candidates[4], {.pairs = true});
     std::vector<glm::dvec3> parts[2]{std::vector<glm::dvec3>(20), std::vector<glm::dvec3>(20)};
     for (const Pair& pair : outcome.pairs)
-      parts[PhotonBlocks::for_discs(20).of(pair.ray)][pair.disc][dominant_axis(rays[pair.ray].direction)] += rays[pair.ray].power;
+      parts[PhotonBlocks::for_discs(20).of(pair.ray)][pair.disc][dominant_axis(rays[pair.ray].direction)] +=
+          rays[pair.ray].power;
     for (std::size_t i = 0; i < discs.size(); ++i) {
       const auto sum = [&](const glm::dvec3& v) { return (v.x + v.y) + v.z; };
       CHECK(outcome.irradiance[i] == (sum(parts[0][i]) + sum(parts[1][i])) / (std::numbers::pi * 0.3 * 0.3));
