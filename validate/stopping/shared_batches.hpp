@@ -19,6 +19,8 @@ class SharedBatches {
   void skip(std::uint64_t batches, std::uint64_t rays) { rays_.skip(batches, rays); }
   /// On rank 0; as FindBatch.
   [[nodiscard]] std::optional<FoundBatch> next(std::uint64_t rays, std::uint64_t following);
+  /// On rank 0. Throws sim::RankFailed if another rank has died: a stop request may have come from its launcher.
+  void roll_call();
   /// On the other ranks. Returns when rank 0 needs no more.
   void serve() { farm_->serve(); }
 

@@ -160,6 +160,7 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   validate::ExecutedUntil found = validate::execute_until(
       [&](std::uint64_t rays, std::uint64_t following) { return batches.next(rays, following); },
       validate::weights_of(job), target, stages, std::move(before), save);
+  if (found.result.reason == validate::StopReason::time) batches.roll_call();
   sim::Outcome& outcome = answer.run.outcome = std::move(found.outcome);
   outcome.irradiance = std::move(found.result.irradiance);
   if (validate::powers_add_up(job))
