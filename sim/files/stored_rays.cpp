@@ -142,9 +142,6 @@ void StoredRays::read_numbered(std::uint64_t first, std::span<Ray> block, std::v
                   [&](std::uint64_t ray, std::uint64_t number) { photons[ray - first] = number; });
 }
 
-double StoredRays::farthest_from(const glm::dvec3& point) const {
-  constexpr double rounding = 1 + 1e-12;
-  return rounding * glm::length(glm::max(glm::abs(origins_.low - point), glm::abs(origins_.high - point)));
-}
+double StoredRays::farthest_from(const glm::dvec3& point) const { return farthest_in(origins_, point); }
 
 }  // namespace detp::sim

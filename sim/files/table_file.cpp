@@ -8,6 +8,7 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include "file_error.hpp"
@@ -30,7 +31,9 @@ bool has_list(const PlyElement& element) {
 }  // namespace
 
 std::optional<TableFile> TableFile::open(const std::string& path, const std::vector<TableColumn>& columns) {
-  if (!has_ending(path, ".ply")) return std::nullopt;
+  std::error_code unknown;
+  if (!has_ending(path, ".ply") || !std::filesystem::is_regular_file(path, unknown))
+    return std::nullopt;  // a pipe is read once
   InputFile file(path);
   const PlyHeader header = read_ply_header(file);
   if (header.format == PlyFormat::ascii || !file.rest()) return std::nullopt;

@@ -121,10 +121,6 @@ void PhotonSource::read_numbered(std::uint64_t first, std::span<Ray> block, std:
   });
 }
 
-double PhotonSource::farthest_from(const glm::dvec3& point) const {
-  constexpr double rounding = 1 + 1e-12;
-  const glm::dvec3 farthest = glm::max(glm::abs(origins_.low - point), glm::abs(origins_.high - point));
-  return rounding * glm::length(farthest);
-}
+double PhotonSource::farthest_from(const glm::dvec3& point) const { return farthest_in(origins_, point); }
 
 }  // namespace detp::sim

@@ -96,13 +96,20 @@ class MpiRanks final : public Ranks {
       check(MPI_Test(&request, &done, MPI_STATUS_IGNORE));
       return done != 0;
     };
-    wait_until(arrived, other, [&] {
+    const auto watch = [&] {
       for (int one = 0; one < count_; ++one) {
         if (!is_partner(one) || !ended(one) || (messages_[one]->empty() && one != other)) continue;
         if (arrived()) return;  // what it sent before
         throw RankFailed(one, messages_[one]->empty() ? "ended before the others" : *messages_[one]);
       }
-    });
+    };
+    try {
+      wait_until(arrived, other, watch);
+    } catch (...) {  // nothing may be written to the caller's bytes any more
+      MPI_Cancel(&request);
+      MPI_Request_free(&request);
+      throw;
+    }
   }
 
   /// Tests again and again, less and less often. `watch` is called between tests.

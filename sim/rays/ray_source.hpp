@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -45,6 +46,12 @@ class RaySource {
   /// An upper bound on the distance of any ray's origin from the point.
   [[nodiscard]] virtual double farthest_from(const glm::dvec3& point) const = 0;
 };
+
+/// An upper bound on the distance of any point in the box from this one.
+[[nodiscard]] inline double farthest_in(const Box& box, const glm::dvec3& point) {
+  constexpr double rounding = 1 + 1e-12;
+  return rounding * glm::length(glm::max(glm::abs(box.low - point), glm::abs(box.high - point)));
+}
 
 /// Rays in memory. They are not copied, and must outlive the source. read() does not check for a stop request.
 class RaysInMemory final : public RaySource {

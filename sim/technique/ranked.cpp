@@ -78,8 +78,9 @@ double imbalance(std::span<const double> seconds) {
 }
 
 RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
-                           const StreamOptions& options, Ranks& ranks) {
+                           const StreamOptions& options, Ranks& ranks, Share divided) {
   if (ranks.count() == 1) return {run_in_memory(discs, source, candidate, options)};
+  if (divided == Share::discs) return run_on_shared_discs(discs, source, candidate, options, ranks);
   const Stopwatch watch;
   double own_seconds = 0;
   Totals totals;
@@ -120,12 +121,6 @@ RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source,
   outcome.standard_error.clear();
   outcome.upper_bound.clear();
   return ranked;
-}
-
-RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
-                           const StreamOptions& options, Ranks& ranks, Share share) {
-  return share == Share::rays ? run_on_ranks(discs, source, candidate, options, ranks)
-                              : run_on_shared_discs(discs, source, candidate, options, ranks);
 }
 
 Share usual_share(std::size_t discs, int ranks) {

@@ -29,23 +29,20 @@ struct RankedOutcome {
 /// The slowest rank's seconds over their mean, less 1.
 [[nodiscard]] double imbalance(std::span<const double> seconds);
 
-/// run_streamed on all ranks: each makes and searches its share of the rays. All must have the same discs, source, candidate and
-/// options. On rank 0 the outcome is that of run_streamed, bit for bit, for any number of ranks; counts and vectors are sums
-/// over the ranks, seconds those of the slowest in each phase. On the others it has the counts of its share, and no arrays.
+/// run_streamed on all ranks. All must have the same discs, source, candidate and options. On rank 0 the outcome is that of
+/// run_streamed, bit for bit, for any number of ranks; counts and vectors are sums over the ranks, seconds those of the slowest in each phase. On
+/// the others it has the counts of its share. What fails on one rank throws on all: there what was thrown, RankFailed elsewhere.
 ///
-/// Stopped on some ranks, the outcome has the hits of the shares before the first that was stopped, and that one's own. What fails on one rank
-/// throws on all: there what was thrown, RankFailed elsewhere.
+/// Share::rays: each rank makes and searches whole blocks of photons, with an index of all discs. Stopped on some ranks, the outcome has the
+/// hits of the shares before the first that was stopped, and that one's own.
+///
+/// Share::discs: each rank makes all rays, and searches them for its discs, a part of the Morton curve by a cost of 1 + d²/mean d² each; the index
+/// and the sums are those of its discs. For at least 2²¹ rays and four for each disc, the time of the first 2¹⁷ rays is measured; if its imbalance is
+/// over 15 %, discs are shared anew by it, once. Rays are loaded and culled, and counted, on each rank. Throws Stopped on all ranks if one was
+/// stopped, and std::invalid_argument for fewer discs than ranks.
 [[nodiscard]] RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source,
-                                         const Valid<Candidate>& candidate, const StreamOptions& options, Ranks& ranks);
-
-/// The same, but each rank searches all rays for its share of the discs, and has the memory that these need: along the Morton curve,
-/// by a cost of 1 + d²/mean d² each. For at least 2²¹ rays and four for each disc, the time of the first 2¹⁷ rays is measured; if its imbalance is over
-/// 15 %, discs are shared anew by it, once. Counts are those of all ranks: other than in one search of all discs, rays are loaded and culled on each.
-///
-/// Throws Stopped on all ranks if one was stopped. Throws std::invalid_argument for fewer discs than ranks.
-[[nodiscard]] RankedOutcome run_on_shared_discs(std::span<const Disc> discs, const RaySource& source,
-                                                const Valid<Candidate>& candidate, const StreamOptions& options,
-                                                Ranks& ranks);
+                                         const Valid<Candidate>& candidate, const StreamOptions& options, Ranks& ranks,
+                                         Share share = Share::rays);
 
 /// One process searches all rays for one part of the discs after another. No standard errors. Throws Stopped, and as run_streamed.
 [[nodiscard]] StreamedOutcome run_in_parts(std::span<const Disc> discs, const RaySource& source,
@@ -56,11 +53,7 @@ struct RankedOutcome {
 [[nodiscard]] StreamedOutcome run_in_memory(std::span<const Disc> discs, const RaySource& source,
                                             const Valid<Candidate>& candidate, const StreamOptions& options);
 
-/// One of both.
-[[nodiscard]] RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source,
-                                         const Valid<Candidate>& candidate, const StreamOptions& options, Ranks& ranks,
-                                         Share share);
-
 /// Rays, which balance best; discs where their index and sums would not fit in a rank's memory.
 [[nodiscard]] Share usual_share(std::size_t discs, int ranks);
+
 }  // namespace detp::sim

@@ -170,7 +170,6 @@ void place_all(const DiscArrays& from, std::size_t discs, Outcome& all) {
 
 RankedOutcome run_on_shared_discs(std::span<const Disc> discs, const RaySource& source,
                                   const Valid<Candidate>& candidate, const StreamOptions& options, Ranks& ranks) {
-  if (ranks.count() == 1) return {run_in_memory(discs, source, candidate, options)};
   if (discs.size() < static_cast<std::size_t>(ranks.count()))
     throw std::invalid_argument("there are more ranks than discs to share");
   const std::stop_token& stop = options.run.stop;
@@ -252,6 +251,7 @@ StreamedOutcome run_in_parts(std::span<const Disc> discs, const RaySource& sourc
     own.kept_bytes +=
         static_cast<double>(discs.size() * (sizeof(Disc) + 2 * sizeof(std::uint32_t) + 2 * sizeof(double)));
     if (options.progress) own.progress = [&](double done) { options.progress((part + done) / parts); };
+    if (options.run.progress) own.run.progress = [&](double share) { options.run.progress((part + share) / parts); };
     DiscShare share(discs, cut.part(part), own);
     share.search(source, candidate);
     share.finish(share.largest_power());

@@ -24,6 +24,11 @@ struct PartOfOutcome {
 /// `seconds`: that the rank needed.
 [[nodiscard]] PartOfOutcome part_of(const StreamedOutcome& found, double seconds);
 
+/// run_on_ranks with Share::discs, on several ranks.
+[[nodiscard]] RankedOutcome run_on_shared_discs(std::span<const Disc> discs, const RaySource& source,
+                                                const Valid<Candidate>& candidate, const StreamOptions& options,
+                                                Ranks& ranks);
+
 /// Adds counts and hits, not `done`; seconds become those of the slower one.
 void add(const PartOfOutcome& part, RankedOutcome& ranked);
 

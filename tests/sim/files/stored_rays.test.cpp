@@ -1,6 +1,7 @@
 #include "detp/sim/files/stored_rays.hpp"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <bit>
@@ -121,6 +122,8 @@ TEST_SUITE("bad input") {
   TEST_CASE("files that cannot be read in any order are left to read_rays; wrong rays are named") {
     const ScratchFolder folder;
     CHECK_FALSE(StoredRays::open(folder.file("rays.csv", "ox,oy,oz,dx,dy,dz\n0,0,0,0,0,1\n")));
+    REQUIRE(::mkfifo(folder.path("pipe.ply").c_str(), 0600) == 0);  // its header may be read once
+    CHECK_FALSE(StoredRays::open(folder.path("pipe.ply")));
     std::vector<std::uint32_t> falling = some_photons();
     falling.back() = 1;
     CHECK_FALSE(StoredRays::open(folder.file("falling.ply", ply(falling, std::endian::little))));

@@ -115,7 +115,7 @@ TEST_SUITE("ranks") {
         CAPTURE(count);
         StreamedOutcome found;
         const auto thrown = on_ranks(count, [&](Ranks& ranks) {
-          RankedOutcome own = run_on_shared_discs(discs, lines, techniques[i], options_of(true), ranks);
+          RankedOutcome own = run_on_ranks(discs, lines, techniques[i], options_of(true), ranks, Share::discs);
           if (ranks.rank() == 0) found = std::move(own.found);
         });
         for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
@@ -135,13 +135,13 @@ TEST_SUITE("ranks") {
     const StreamedOutcome expected = run_streamed(discs, paths, techniques[0], options_of(true));
     StreamedOutcome found;
     const auto thrown = on_ranks(3, [&](Ranks& ranks) {
-      RankedOutcome own = run_on_shared_discs(discs, paths, techniques[0], options_of(true), ranks);
+      RankedOutcome own = run_on_ranks(discs, paths, techniques[0], options_of(true), ranks, Share::discs);
       if (ranks.rank() == 0) found = std::move(own.found);
     });
     for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
     check_same_hits(found, expected);
     const auto refused = on_ranks(201, [&](Ranks& ranks) {
-      static_cast<void>(run_on_shared_discs(discs, paths, techniques[0], options_of(true), ranks));
+      static_cast<void>(run_on_ranks(discs, paths, techniques[0], options_of(true), ranks, Share::discs));
     });
     CHECK_THROWS_AS(std::rethrow_exception(refused[0]), std::invalid_argument);
   }
@@ -154,7 +154,7 @@ TEST_SUITE("ranks") {
     const StreamedOutcome expected = run_streamed(discs, lines, techniques[0], options_of(false));
     StreamedOutcome found;
     const auto thrown = on_ranks(2, [&](Ranks& ranks) {
-      RankedOutcome own = run_on_shared_discs(discs, lines, techniques[0], options_of(false), ranks);
+      RankedOutcome own = run_on_ranks(discs, lines, techniques[0], options_of(false), ranks, Share::discs);
       if (ranks.rank() == 0) found = std::move(own.found);
     });
     for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);

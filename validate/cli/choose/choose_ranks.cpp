@@ -63,10 +63,10 @@ MakingTime making_time(const validate::Job& job, const std::stop_token& stop) {
   });
 }
 
-MakingTime making_time(const Workload& workload, std::uint64_t seed, const std::stop_token&) {
+MakingTime making_time(const Workload& workload, std::uint64_t seed, const std::stop_token& stop) {
   const sim::LineField field({{0, 0, 0}, workload.sphere_radius}, seed);
   return timed(workload.rays, [&](int part) {
-    return field.lines(rays_of_part * static_cast<std::size_t>(part), rays_of_part).size();
+    return field.lines(rays_of_part * static_cast<std::size_t>(part), rays_of_part, stop).size();
   });
 }
 
