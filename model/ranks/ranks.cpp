@@ -17,6 +17,7 @@ constexpr double result_bytes = 16;  // hits and irradiance
 constexpr double error_sums = 56;    // with standard errors
 constexpr double error_results = 16;
 constexpr double ray_bytes = 64 + 8 + 2 * 28;  // in a block: the ray, its photon, and two lists
+constexpr double kept_ray_bytes = 64 + 8;
 constexpr double number_bytes = 4;
 
 double blocks_of(const SharedSearch& search) {
@@ -42,8 +43,14 @@ double results_bytes(const SharedSearch& search) {
   return search.discs * (result_bytes + (search.standard_errors ? error_results : 0));
 }
 
-double fixed_bytes(const SharedSearch& search) {
-  return search.scene_bytes + search.discs * disc_bytes + block_of_rays(search) + results_bytes(search);
+/// Of the photon paths that a rank counts, the share that it keeps.
+double kept_share(const SharedSearch& search, double ranks) {
+  return search.photon_paths ? std::min(1.0, search.kept_bytes / (kept_ray_bytes * search.rays / ranks)) : 0;
+}
+
+double fixed_bytes(const SharedSearch& search, double ranks) {
+  const double kept = kept_share(search, ranks) * kept_ray_bytes * search.rays / ranks;
+  return search.scene_bytes + search.discs * disc_bytes + block_of_rays(search) + results_bytes(search) + kept;
 }
 
 void check_ranks(const SharedSearch& search, double ranks, const Network& network) {
@@ -68,6 +75,7 @@ void check(const SharedSearch& search) {
   require_non_negative("seconds for the index", search.build_seconds);
   require_non_negative("seconds for the search", search.search_seconds);
   require_non_negative("bytes of the scene", search.scene_bytes);
+  require_non_negative("bytes of kept rays", search.kept_bytes);
 }
 
 SharedTime share_rays(const SharedSearch& search, double ranks, const Network& network) {
@@ -79,11 +87,11 @@ SharedTime share_rays(const SharedSearch& search, double ranks, const Network& n
   const double errors = search.standard_errors ? error_sums + 8 * subtrees : 0;
   const double message = ranks > 1 ? search.discs * (sums_bytes + 8 * subtrees + errors) : 0;
   return {.count = search.photon_paths ? search.make_seconds / ranks : 0,
-          .make = share * search.make_seconds,
+          .make = share * (1 - kept_share(search, ranks)) * search.make_seconds,
           .build = search.build_seconds,
           .search = share * search.search_seconds,
           .collect = collect_seconds(ranks, message, network),
-          .memory = fixed_bytes(search) + search_bytes(search, search.discs, levels_of(blocks)) + message,
+          .memory = fixed_bytes(search, ranks) + search_bytes(search, search.discs, levels_of(blocks)) + message,
           .traffic = (ranks - 1) * message};
 }
 
@@ -92,14 +100,14 @@ SharedTime share_discs(const SharedSearch& search, double ranks, const Network& 
   const double discs = std::ceil(search.discs / ranks);
   const double result = number_bytes + result_bytes + (search.standard_errors ? error_results : 0);
   const double message = ranks > 1 ? discs * result : 0;
-  return {
-      .count = search.photon_paths ? search.make_seconds / ranks : 0,
-      .make = search.make_seconds,
-      .build = search.build_seconds / ranks,
-      .search = search.search_seconds / ranks,
-      .collect = collect_seconds(ranks, message, network),
-      .memory = fixed_bytes(search) + search_bytes(search, discs, levels_of(blocks_of(search))) + discs * disc_bytes,
-      .traffic = (ranks - 1) * message};
+  return {.count = search.photon_paths ? search.make_seconds / ranks : 0,
+          .make = (1 - kept_share(search, ranks) / ranks) * search.make_seconds,
+          .build = search.build_seconds / ranks,
+          .search = search.search_seconds / ranks,
+          .collect = collect_seconds(ranks, message, network),
+          .memory = fixed_bytes(search, ranks) + search_bytes(search, discs, levels_of(blocks_of(search))) +
+                    discs * disc_bytes,
+          .traffic = (ranks - 1) * message};
 }
 
 }  // namespace detp::model

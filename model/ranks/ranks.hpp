@@ -9,7 +9,8 @@ struct SharedSearch {
   double photons = 0;  ///< emitted; lines: as many as rays
   double discs = 0;
   double photons_in_block = 1 << 18;  ///< the smallest part of the rays that is shared
-  bool photon_paths = false;          ///< they are made once more, to count them
+  bool photon_paths = false;          ///< they are made once to count them; those that are not kept are made again
+  double kept_bytes = 0;              ///< of counted photon paths, that a rank keeps at most
   bool standard_errors = false;
   double make_seconds = 0;  ///< for making all rays once
   double build_seconds = 0;
@@ -38,10 +39,12 @@ struct SharedTime {
 
 /// Ranks share the rays: each has whole blocks of photons, and an index of all discs.
 ///
-///     T = [T_m/P] + s (T_m + T_s) + T_b + (P - 1)(L + m/W)        s = ⌈B/P⌉/B
+///     T = [T_m/P] + s ((1 - f) T_m + T_s) + T_b + (P - 1)(L + m/W)        s = ⌈B/P⌉/B
 ///     m = n_P (32 + 8 l)        l = 2 log₂(B/P), at least 1
+///     f = K/(72 n_R/P), at most 1; for lines 0
 ///
 ///   where  T_m, T_b, T_s  seconds for making rays, for the index and for the search; [T_m/P] only of photon paths
+///          f      share of its photon paths that a rank keeps from counting; K: bytes it may keep
 ///          B      number of blocks of photons
 ///          m      bytes that a rank sends: its sums under way, and those of the largest subtrees of its blocks; with standard errors
 ///                 56 + 8 l more for each disc
@@ -51,9 +54,9 @@ struct SharedTime {
 /// check(SharedSearch).
 [[nodiscard]] SharedTime share_rays(const SharedSearch& search, double ranks, const Network& network = {});
 
-/// Ranks share the discs: each makes all rays, and has an index and sums of its own discs.
+/// Ranks share the discs: each makes all rays but those it keeps from counting, and has an index and sums of its own discs.
 ///
-///     T = [T_m/P] + T_m + (T_b + T_s)/P + (P - 1)(L + n_P/P · 20/W)
+///     T = [T_m/P] + (1 - f/P) T_m + (T_b + T_s)/P + (P - 1)(L + n_P/P · 20/W)
 ///
 /// The bytes are the numbers of the discs, their hits and irradiance; with standard errors 16 more. A lower bound: culls near the root of the
 /// index are made on each rank, which n_P/P > 2¹⁷ makes small. Throws as share_rays.

@@ -20,14 +20,14 @@ template <>
 inline constexpr std::array<std::string_view, 2> choice_names<Engine>{"plain", "simd"};
 
 /// Number of rays in a block. The simd engine searches all discs block by block: about four rays for each disc, at least 2¹⁵ and at
-/// most 2²². With fewer rays, lists become too short for vectors on the way to the leaves; lists of more do not stay in the caches.
+/// most 2²⁴. With fewer rays, lists become too short for vectors on the way to the leaves; lists of more do not stay in the caches.
 ///
 /// Measured with lines through discs on the faces of a cube, the box tree, two cores (Zen 3, AVX2): 8·10⁶ lines and 10⁶ discs 9.1 s in blocks
 /// of 2¹⁷ rays, 1.5 s in blocks of 2²²; 4·10⁶ lines and 10⁵ discs 0.57 s (2¹⁷), 0.38 s (2¹⁹), 0.35 s (2²⁰); 3·10⁴ discs 0.26 s (2¹⁷, 2¹⁸),
-/// 0.36 s (2²⁰).
+/// 0.36 s (2²⁰). 10⁹ lines and 10⁷ discs 806 s (2²²), 184 s (2²⁴).
 [[nodiscard]] constexpr std::size_t rays_in_block(std::size_t discs) {
   constexpr std::size_t least = std::size_t{1} << 15;
-  constexpr std::size_t most = std::size_t{1} << 22;
+  constexpr std::size_t most = std::size_t{1} << 24;
   return std::clamp(std::bit_ceil(std::min(4 * discs, most)), least, most);
 }
 

@@ -14,8 +14,8 @@ namespace detp::sim {
 /// the result.
 class PhotonRounds {
  public:
-  PhotonRounds(std::string scene, std::uint64_t pieces)
-      : scene_(std::move(scene)), pieces_(pieces), limit_(1000 + 100 * pieces) {}
+  PhotonRounds(std::string scene, std::uint64_t pieces, std::uint64_t most_in_a_round = 1ULL << 20)
+      : scene_(std::move(scene)), pieces_(pieces), most_in_a_round_(most_in_a_round), limit_(1000 + 100 * pieces) {}
 
   /// Number of photons in the next round: about as many as yield the missing pieces. `found` is the number of pieces in
   /// all rounds so far. Throws std::invalid_argument if the limit is reached.
@@ -34,18 +34,20 @@ class PhotonRounds {
 
  private:
   static constexpr std::uint64_t least_in_a_round = 256;
-  static constexpr std::uint64_t most_in_a_round = 1ULL << 20;
+  static constexpr std::uint64_t most_in_first_round = 1ULL << 16;
 
   [[nodiscard]] std::uint64_t photons_needed(std::uint64_t found) const {
     const std::uint64_t missing = pieces_ - found;
-    if (traced_ == 0) return std::clamp<std::uint64_t>(missing / 4, least_in_a_round, most_in_a_round);
+    if (traced_ == 0) return std::clamp<std::uint64_t>(missing / 4, least_in_a_round, most_in_first_round);
     const double each = static_cast<double>(found) / static_cast<double>(traced_);
     const double more = each > 0 ? 1.02 * static_cast<double>(missing) / each : 2.0 * static_cast<double>(traced_);
-    return std::max(least_in_a_round, static_cast<std::uint64_t>(std::min(more, static_cast<double>(most_in_a_round))));
+    const auto most = static_cast<double>(std::min(most_in_a_round_, limit_));
+    return std::max(least_in_a_round, static_cast<std::uint64_t>(std::min(more, most)));
   }
 
   std::string scene_;
   std::uint64_t pieces_;
+  std::uint64_t most_in_a_round_;
   std::uint64_t limit_;
   std::uint64_t traced_ = 0;
 };

@@ -1,9 +1,12 @@
 #include "photon_source.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "detp/sim/base/floating_point.hpp"
+#include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/parallel.hpp"
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/sim/ranks/parts.hpp"
@@ -13,15 +16,17 @@ namespace detp::sim {
 namespace {
 
 constexpr std::uint64_t group_size = 1024;  // photons in a group
+constexpr std::uint64_t most_in_a_round = 1ULL << 26;
 
 }  // namespace
 
 PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed,
                            std::shared_ptr<const RayCaster> caster, const std::stop_token& stop, Ranks* ranks)
-    : tracer_(scene, seed, std::move(caster)), count_(count), limit_(0), starts_{0} {
+    : tracer_(scene, seed, std::move(caster)), count_(count), limit_(0), starts_{0}, most_kept_(most_kept_bytes()) {
   const DefaultFloatingPoint mode;
+  require_memory(fmt::format("numbers of {} rays", count), 16.0 * static_cast<double>(count) / group_size);
   OneRank one;
-  PhotonRounds rounds(scene.name, count);
+  PhotonRounds rounds(scene.name, count, most_in_a_round);
   limit_ = rounds.limit();
   try {
     for (std::uint64_t photons = 0; starts_.back() < count;) {
@@ -39,6 +44,21 @@ PhotonPieces PhotonSource::trace_group(std::uint64_t group, const std::stop_toke
   return tracer_.trace(first, std::min(first + group_size, limit_), stop);
 }
 
+const PhotonPieces& PhotonSource::pieces_of(std::uint64_t group, PhotonPieces& traced,
+                                            const std::stop_token& stop) const {
+  if (group < kept_.size() && kept_[group]) return *kept_[group];
+  return traced = trace_group(group, stop);
+}
+
+std::unique_ptr<const PhotonPieces> PhotonSource::keep(const PhotonPieces& pieces) {
+  const std::size_t bytes = pieces.rays.size() * (sizeof(Ray) + sizeof(std::uint64_t));
+  if (static_cast<double>(traced_bytes_.fetch_add(bytes) + bytes) > most_kept_) return nullptr;
+  auto kept = std::make_unique<PhotonPieces>();
+  kept->rays.assign(pieces.rays.begin(), pieces.rays.end());
+  kept->photons.assign(pieces.photons.begin(), pieces.photons.end());
+  return kept;
+}
+
 /// Traces further groups to count their rays, until `groups` groups are counted.
 void PhotonSource::count_rays(std::uint64_t groups, Ranks& ranks, const std::stop_token& stop) {
   struct Group {
@@ -48,12 +68,14 @@ void PhotonSource::count_rays(std::uint64_t groups, Ranks& ranks, const std::sto
   const std::uint64_t known = starts_.size() - 1;
   if (groups <= known) return;
   std::vector<Group> found(groups - known);
+  kept_.resize(groups);
   const auto [first, last] = part_of(found.size(), ranks);
   do_on_all(ranks, [&, begin = first, end = last] {
     sim::parallel_for(begin, end, [&](std::size_t i) {
       const PhotonPieces pieces = trace_group(known + i, stop);
       found[i].rays = pieces.rays.size();
       for (const Ray& ray : pieces.rays) found[i].origins.include(ray.origin);
+      kept_[known + i] = keep(pieces);
     });
   });
   share_parts(ranks, std::span(found));
@@ -71,7 +93,8 @@ std::uint64_t PhotonSource::group_of(std::uint64_t ray) const {
 
 void PhotonSource::end_with_last_photon(const std::stop_token& stop) {
   const std::uint64_t group = group_of(count_ - 1);
-  const std::vector<std::uint64_t> photons = trace_group(group, stop).photons;
+  PhotonPieces traced;
+  const std::vector<std::uint64_t>& photons = pieces_of(group, traced, stop).photons;
   const std::uint64_t last = photons[count_ - 1 - starts_[group]];
   count_ = starts_[group] + static_cast<std::uint64_t>(std::ranges::upper_bound(photons, last) - photons.begin());
   emitted_ = last + 1;
@@ -81,7 +104,8 @@ std::uint64_t PhotonSource::block_end(std::uint64_t first, std::uint64_t most) c
   if (most >= count_ - first) return count_;
   const std::uint64_t next = first + most;  // the first ray that may be in the next block
   const std::uint64_t group = group_of(next);
-  const std::vector<std::uint64_t> photons = trace_group(group, {}).photons;
+  PhotonPieces traced;
+  const std::vector<std::uint64_t>& photons = pieces_of(group, traced, {}).photons;
   const std::uint64_t cut = photons[next - starts_[group]];
   const auto begin = std::ranges::lower_bound(photons, cut) - photons.begin();
   const std::uint64_t end = starts_[group] + static_cast<std::uint64_t>(begin);
@@ -93,7 +117,8 @@ std::uint64_t PhotonSource::first_ray_of(std::uint64_t photon) const {
   const std::uint64_t group = photon / group_size;
   if (photon >= emitted_ || group + 1 >= starts_.size()) return count_;
   if (photon % group_size == 0) return std::min(count_, starts_[group]);
-  const std::vector<std::uint64_t> photons = trace_group(group, {}).photons;
+  PhotonPieces traced;
+  const std::vector<std::uint64_t>& photons = pieces_of(group, traced, {}).photons;
   const auto before = static_cast<std::uint64_t>(std::ranges::lower_bound(photons, photon) - photons.begin());
   return std::min(count_, starts_[group] + before);
 }
@@ -110,7 +135,8 @@ void PhotonSource::read_numbered(std::uint64_t first, std::span<Ray> block, std:
   if (block.empty()) return;
   const std::uint64_t last = first + block.size();
   sim::parallel_for(group_of(first), group_of(last - 1) + 1, [&](std::uint64_t group) {
-    const PhotonPieces pieces = trace_group(group, stop);
+    PhotonPieces traced;
+    const PhotonPieces& pieces = pieces_of(group, traced, stop);
     const std::uint64_t from = std::max(first, starts_[group]);
     const std::uint64_t to = std::min(last, starts_[group] + pieces.rays.size());
     for (std::uint64_t number = from; number < to; ++number) {

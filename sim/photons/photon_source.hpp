@@ -1,7 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <atomic>
+#include <memory>
 #include <vector>
 
+#include "detp/sim/base/memory.hpp"
 #include "detp/sim/ranks/ranks.hpp"
 #include "detp/sim/rays/ray_source.hpp"
 #include "photon_tracer.hpp"
@@ -11,8 +15,9 @@ namespace detp::sim {
 /// Returns the rays of photon_paths by number, bit for bit the same, without storing them.
 ///
 /// Each photon yields as many rays as its path has pieces. So the constructor traces all photons once, in groups of
-/// 1024, and keeps the number of rays before each group; ranks share these groups. A block that starts in the middle of a group traces that group
-/// again and discards the rays before the block. So rays are traced twice: once to count them, once to read them.
+/// 1024, and stores the number of rays before each group; ranks share these groups. It also keeps the rays of the groups
+/// it traced, as long as they take less than 1/16 of the memory budget. Other groups are traced again when a block needs
+/// one of their rays.
 class PhotonSource final : public RaySource {
  public:
   /// Throws as photon_paths does.
@@ -32,9 +37,16 @@ class PhotonSource final : public RaySource {
   void read_numbered(std::uint64_t first, std::span<Ray> block, std::vector<std::uint64_t>& photons,
                      const std::stop_token& stop = {}) const override;
   [[nodiscard]] double farthest_from(const glm::dvec3& point) const override;
+  /// Bytes of rays that a source keeps at most.
+  [[nodiscard]] static double most_kept_bytes() { return memory_budget() / 16; }
+  [[nodiscard]] double kept_bytes() const override { return std::min(static_cast<double>(traced_bytes_), most_kept_); }
 
  private:
   [[nodiscard]] PhotonPieces trace_group(std::uint64_t group, const std::stop_token& stop) const;
+  /// The group's rays: those kept, or else `traced`, which it fills.
+  const PhotonPieces& pieces_of(std::uint64_t group, PhotonPieces& traced, const std::stop_token& stop) const;
+  /// Keeps the pieces if they fit.
+  std::unique_ptr<const PhotonPieces> keep(const PhotonPieces& pieces);
   void count_rays(std::uint64_t groups, Ranks& ranks, const std::stop_token& stop);
   /// Number of the group that has the ray.
   [[nodiscard]] std::uint64_t group_of(std::uint64_t ray) const;
@@ -45,6 +57,9 @@ class PhotonSource final : public RaySource {
   std::uint64_t count_;
   std::uint64_t limit_;                ///< in photons
   std::vector<std::uint64_t> starts_;  ///< number of each group's first ray; at the end, the number of all rays found
+  std::vector<std::unique_ptr<const PhotonPieces>> kept_;  ///< groups; null if not kept
+  std::atomic<std::uint64_t> traced_bytes_ = 0;            ///< of groups traced by the constructor
+  double most_kept_;                                       ///< in bytes
   Box origins_;
   std::uint64_t emitted_ = 1;  ///< number of photons that yield the rays
 };

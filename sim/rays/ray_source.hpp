@@ -45,6 +45,9 @@ class RaySource {
 
   /// An upper bound on the distance of any ray's origin from the point.
   [[nodiscard]] virtual double farthest_from(const glm::dvec3& point) const = 0;
+
+  /// Bytes of rays that the source keeps so that it need not make them again.
+  [[nodiscard]] virtual double kept_bytes() const { return 0; }
 };
 
 /// An upper bound on the distance of any point in the box from this one.

@@ -77,7 +77,7 @@ class StreamedSearch {
     const double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) +
                               (options_.run.standard_error ? error_bytes : 0);
     own_bytes_ =
-        options_.kept_bytes + static_cast<double>(problem_.discs().size()) * for_a_disc +
+        options_.kept_bytes + source_.kept_bytes() + static_cast<double>(problem_.discs().size()) * for_a_disc +
         static_cast<double>(streamed_.block) * (sizeof(Ray) + (source_.numbered() ? sizeof(std::uint64_t) : 0));
     streamed_.bytes = own_bytes_;
     require_memory(fmt::format("{} discs and blocks of {} rays", problem_.discs().size(), streamed_.block), own_bytes_);
@@ -126,7 +126,7 @@ class StreamedSearch {
 
 std::size_t default_block(std::size_t discs) {
   constexpr std::size_t least = std::size_t{1} << 20;
-  constexpr std::size_t most = std::size_t{1} << 22;
+  constexpr std::size_t most = std::size_t{1} << 24;
   return std::bit_ceil(std::clamp(4 * std::min(discs, most), least, most));
 }
 

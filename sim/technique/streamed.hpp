@@ -31,7 +31,7 @@ struct StreamedOutcome {
   double bytes = 0;          ///< predicted peak memory, including discs, a block of rays and the pairs found
 };
 
-/// Default number of rays in a block: four for each disc, as rays_in_block, but at least 2²⁰ (64 MiB) and at most 2²² (256 MiB).
+/// Default number of rays in a block: four for each disc, as rays_in_block, but at least 2²⁰ (64 MiB) and at most 2²⁴ (1 GiB).
 ///
 /// Techniques that cull lists visit all discs once for each block, which pays off only if the block has about as many
 /// rays as there are discs. The processor's caches do not matter: techniques that trace rays one by one process a block

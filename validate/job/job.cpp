@@ -175,7 +175,7 @@ class JobMaker {
     if (job_.field != sim::Field::photons)
       refuse_lights(job_.field == sim::Field::mixed ? "a mixed field" : "isotropic lines");
     const auto block = static_cast<double>(sim::default_block(job_.discs.size()));
-    const bool stream = request_.stream && rays > block && rays < UINT32_MAX;
+    const bool stream = request_.stream && rays > block;
     const double made = request_.workload_only ? std::min(rays, block) : rays;
     progress_.make_rays(job_.field, made, stream, job_.discs.size());
     if (stream) return make_stream(static_cast<std::uint64_t>(rays));

@@ -47,6 +47,20 @@ TEST_SUITE("reference value") {
   }
 }
 
+TEST_SUITE("reference value") {
+  TEST_CASE("photon paths that are kept are not made again: by hand") {
+    SharedSearch search = some_search();
+    search.kept_bytes = 72 * 3e6 / 8;  // half of the rays that one of four ranks counts
+    const double without = share_rays(some_search(), 4).memory;
+    CHECK(share_rays(search, 4).make == doctest::Approx(4 * 0.3 / 2));
+    CHECK(share_discs(search, 4).make == doctest::Approx(4 * (1 - 0.5 / 4)));
+    CHECK(share_rays(search, 4).memory == doctest::Approx(without + search.kept_bytes));
+    CHECK(share_rays(search, 100).make == 0);
+    search.photon_paths = false;
+    CHECK(share_rays(search, 4).make == doctest::Approx(4 * 0.3));
+  }
+}
+
 TEST_SUITE("identity") {
   TEST_CASE("one rank takes what one process takes, and sends nothing; lines are not counted") {
     SharedSearch search = some_search();

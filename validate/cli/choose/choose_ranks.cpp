@@ -5,17 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/photons/photon_source.hpp"
+#include "detp/sim/rays/ray_source.hpp"
 #include "detp/sim/search/photon_blocks.hpp"
 
 namespace detp::cli {
 namespace {
 
 constexpr int timed_parts = 5;
-constexpr std::size_t rays_of_part = std::size_t{1} << 15;
+constexpr std::size_t rays_of_part = std::size_t{1} << 17;
 
 /// Mean of several times, for so many rays.
 template <class Make>
@@ -64,9 +66,11 @@ MakingTime making_time(const validate::Job& job, const std::stop_token& stop) {
 }
 
 MakingTime making_time(const Workload& workload, std::uint64_t seed, const std::stop_token& stop) {
-  const sim::LineField field({{0, 0, 0}, workload.sphere_radius}, seed);
+  const sim::LinesOfField lines({{0, 0, 0}, workload.sphere_radius}, seed, rays_of_part * (timed_parts + 1));
+  std::vector<sim::Ray> rays(rays_of_part);
   return timed(workload.rays, [&](int part) {
-    return field.lines(rays_of_part * static_cast<std::size_t>(part), rays_of_part, stop).size();
+    lines.read(rays_of_part * static_cast<std::uint64_t>(part), rays, stop);
+    return rays.size();
   });
 }
 
@@ -83,6 +87,7 @@ RanksAnswer choose_ranks(const RanksOptions& options, const Workload& workload, 
       .discs = workload.samples,
       .photons_in_block = static_cast<double>(sim::PhotonBlocks::for_discs(discs).first(1)),
       .photon_paths = photon_paths,
+      .kept_bytes = sim::PhotonSource::most_kept_bytes(),
       .make_seconds = making.seconds,
       .build_seconds = build,
       .search_seconds = time.total() - build,

@@ -1,0 +1,66 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "detp/model/ranks/ranks.hpp"
+#include "detp/model/rank/predict.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
+#include "support/pages.hpp"
+
+namespace detp::support {
+namespace {
+
+CostBreakdown predicted(double rays, double samples) {
+  const double half_distance = std::sqrt(6 / samples) / 2;
+  const Candidate tree{Technique::box_tree, BoxTreeParameters{8, 8}};
+  return price(model::predict(cube_workload(rays, samples, half_distance, 1, 2), tree),
+               validate::built_in_unit_costs()[Technique::box_tree]);
+}
+
+/// 10¹⁰ lines and 10⁸ discs: the largest measured run times what the closed forms say is more.
+model::SharedSearch on_paper(const CsvRow& largest) {
+  const double rays = 1e10;
+  const double discs = 1e8;
+  const CostBreakdown small = predicted(number(largest, "rays"), number(largest, "samples"));
+  const CostBreakdown large = predicted(rays, discs);
+  return {.rays = rays,
+          .photons = rays,
+          .discs = discs,
+          .photons_in_block = 0x1p24,
+          .make_seconds = number(largest, "make_seconds") * rays / number(largest, "rays"),
+          .build_seconds = number(largest, "build_seconds") * large.build / small.build,
+          .search_seconds = number(largest, "search_seconds") * (large.total() - large.build - large.order) /
+                            (small.total() - small.build - small.order)};
+}
+
+std::string time_text(const model::SharedTime& time) {
+  return fmt::format("{:.3g} s, {:.3g} GB, {:.2g} GB", time.total(), time.memory / 1e9, time.traffic / 1e9);
+}
+
+}  // namespace
+
+TEST_SUITE("figures") {
+  TEST_CASE("the page's runs on processes are those of ranks.csv") {
+    const std::string page = source_text("model/ranks/README.md");
+    for (const CsvRow& row : published("ranks.csv"))
+      check_says(page, fmt::format("| {} | {:.2g} | {:.2g} | {} | {} | {:.3g} s | {:.3g} s | {:.2g} GB | {:.2g} GB |",
+                                   row.at("rays_of"), number(row, "rays"), number(row, "samples"), row.at("processes"),
+                                   row.at("share"), number(row, "predicted_seconds"), number(row, "seconds"),
+                                   number(row, "predicted_memory") / 1e9, number(row, "memory") / 1e9));
+  }
+
+  TEST_CASE("the page's estimate of 10¹⁰ rays and 10⁸ discs follows from the largest run") {
+    const std::string page = source_text("model/ranks/README.md");
+    const model::SharedSearch search = on_paper(published("ranks.csv").back());
+    check_says(page, fmt::format("{:.3g} s for making the lines, {:.3g} s for the index, {:.3g} s for the search",
+                                 search.make_seconds, search.build_seconds, search.search_seconds));
+    for (const double ranks : {1.0, 8.0, 64.0, 512.0, 4096.0})
+      check_says(page, fmt::format("| {} | {} | {} |", ranks, time_text(share_rays(search, ranks)),
+                                   time_text(share_discs(search, ranks))));
+  }
+}
+
+}  // namespace detp::support
