@@ -8,6 +8,7 @@
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/parallel.hpp"
+#include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/sim/ranks/parts.hpp"
 #include "photon_rounds.hpp"
@@ -46,6 +47,7 @@ PhotonPieces PhotonSource::trace_group(std::uint64_t group, const std::stop_toke
 
 const PhotonPieces& PhotonSource::pieces_of(std::uint64_t group, PhotonPieces& traced,
                                             const std::stop_token& stop) const {
+  StopCheck(stop, "making rays").now();
   if (group < kept_.size() && kept_[group]) return *kept_[group];
   return traced = trace_group(group, stop);
 }

@@ -15,9 +15,6 @@ struct ShareOfRays {
   std::uint64_t next_block = 0;
 };
 
-/// The share of each of `ranks`: whole blocks of photons, so that the largest number of rays is as small as can be.
-[[nodiscard]] std::vector<ShareOfRays> shares_of_rays(const RaySource& source, PhotonBlocks photon_blocks, int ranks);
-
 /// What ranks share.
 enum class Share { rays, discs };
 
@@ -33,8 +30,9 @@ struct RankedOutcome {
 /// run_streamed, bit for bit, for any number of ranks; counts and vectors are sums over the ranks, seconds those of the slowest in each phase. On
 /// the others it has the counts of its share. What fails on one rank throws on all: there what was thrown, RankFailed elsewhere.
 ///
-/// Share::rays: each rank makes and searches whole blocks of photons, with an index of all discs. Stopped on some ranks, the outcome has the
-/// hits of the shares before the first that was stopped, and that one's own.
+/// Share::rays: each rank makes and searches whole blocks of photons, with an index of all discs. If there are 16 blocks for each, ranks are
+/// compared after an eighth; if the imbalance is over 15 %, the rest is shared anew by their speeds, once. Stopped on some ranks, the outcome has the hits of
+/// the first rays only, up to the first block that is not complete.
 ///
 /// Share::discs: each rank makes all rays, and searches them for its discs, a part of the Morton curve by a cost of 1 + d²/mean d² each; the index
 /// and the sums are those of its discs. For at least 2²¹ rays and four for each disc, the time of the first 2¹⁷ rays is measured; if its imbalance is

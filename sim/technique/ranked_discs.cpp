@@ -14,7 +14,6 @@ namespace detp::sim {
 namespace {
 
 constexpr std::uint64_t rays_of_pilot = std::uint64_t{1} << 17;
-constexpr double most_imbalance = 0.15;
 
 /// The discs in the order of the Morton curve, cut into parts of equal cost.
 class CurveCut {
@@ -222,7 +221,8 @@ RankedOutcome run_on_shared_discs(std::span<const Disc> discs, const RaySource& 
   ranked.seconds.push_back(own_seconds);
   for (int from = 1; from < ranks.count(); ++from) {
     const auto part = ranks.receive_one<PartOfOutcome>(from);
-    add(part, ranked);
+    add_found(part, ranked.found.outcome);
+    slow_down_to(part, ranked.found);
     ranked.seconds.push_back(part.seconds);
     DiscArrays arrays;
     arrays.numbers = receive_array<std::uint32_t>(ranks, from);
@@ -262,7 +262,8 @@ StreamedOutcome run_in_parts(std::span<const Disc> discs, const RaySource& sourc
                       counted.phases.search + all.seconds.search};  // one after another
     counted.read_seconds += ranked.found.read_seconds;
     counted.check_seconds += ranked.found.check_seconds;
-    add(counted, ranked);
+    add_found(counted, ranked.found.outcome);
+    slow_down_to(counted, ranked.found);
     const Outcome& outcome = found.outcome;
     place_all({share.numbers(), outcome.hits, outcome.irradiance, {}, {}}, discs.size(), all);
     all.pairs.insert(all.pairs.end(), outcome.pairs.begin(), outcome.pairs.end());

@@ -29,8 +29,15 @@ struct PartOfOutcome {
                                                 const Valid<Candidate>& candidate, const StreamOptions& options,
                                                 Ranks& ranks);
 
-/// Adds counts and hits, not `done`; seconds become those of the slower one.
-void add(const PartOfOutcome& part, RankedOutcome& ranked);
+/// Adds counts and hits, not `done`.
+void add_found(const PartOfOutcome& part, Outcome& all);
+/// Seconds and bytes become those of the slower and larger one.
+void slow_down_to(const PartOfOutcome& part, StreamedOutcome& all);
+/// Adds seconds of a later part of the same rank.
+void add_times(const PartOfOutcome& later, PartOfOutcome& all);
+
+/// Parts are cut anew if their imbalance is larger.
+inline constexpr double most_imbalance = 0.15;
 
 template <class T>
 void send_array(Ranks& ranks, const std::vector<T>& values, int to) {

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "../ranks/thread_ranks.hpp"
 #include "detp/sim/geometry/random.hpp"
@@ -10,6 +12,7 @@
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/photon_source.hpp"
 #include "detp/sim/search/irradiance.hpp"
+#include "detp/sim/technique/ranked_rays.hpp"
 #include "detp/sim/technique/technique.hpp"
 
 using namespace detp;
@@ -20,17 +23,25 @@ namespace {
 /// Lines with powers that tell the order of additions apart.
 class UnequalLines final : public RaySource {
  public:
-  UnequalLines(const Sphere& sphere, std::uint64_t count) : lines_(sphere, 3, count) {}
+  /// Each read of 2¹⁵ lines sleeps for so many seconds.
+  UnequalLines(const Sphere& sphere, std::uint64_t count, double seconds = 0)
+      : lines_(sphere, 3, count), seconds_(seconds) {}
   [[nodiscard]] std::uint64_t size() const override { return lines_.size(); }
   void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const override {
     lines_.read(first, block, stop);
+    std::this_thread::sleep_for(
+        std::chrono::duration<double>(seconds_ * static_cast<double>(block.size()) / (1 << 15)));
+    made_ += block.size();
     for (std::size_t i = 0; i < block.size(); ++i)
       block[i].power = std::exp(20 * uniform4(5, Stream::tests, first + i)[0]);
   }
   [[nodiscard]] double farthest_from(const glm::dvec3& point) const override { return lines_.farthest_from(point); }
+  [[nodiscard]] std::uint64_t made() const { return made_; }
 
  private:
   LinesOfField lines_;
+  double seconds_;
+  mutable std::uint64_t made_ = 0;
 };
 
 void check_same_hits(const StreamedOutcome& found, const StreamedOutcome& expected) {
@@ -161,20 +172,78 @@ TEST_SUITE("ranks") {
     check_same_hits(found, expected);
   }
 
-  TEST_CASE("shares are whole blocks of photons, follow one another, and are as equal as can be") {
+  TEST_CASE("parts are whole blocks of photons, follow one another, and are as equal as can be") {
     const LinesOfField lines({{0, 0, 0}, 1}, 1, 5 * (std::uint64_t{1} << 18) + 7);
     const PhotonBlocks blocks{18};
-    const std::vector<ShareOfRays> shares = shares_of_rays(lines, blocks, 4);
-    REQUIRE(shares.size() == 4);
+    const CutOfRays cut(lines, blocks, 4);
+    REQUIRE(cut.parts().size() == 4);
+    CHECK_FALSE(cut.has_rest());
     std::uint64_t first = 0;
-    for (const ShareOfRays& share : shares) {
-      CHECK(share.first == first);
-      CHECK(share.first == std::min(lines.size(), blocks.first(share.block)));
-      CHECK(share.last - share.first <= 2U << 18);
-      first = share.last;
+    for (const auto& ranges : cut.parts()) {
+      REQUIRE(ranges.size() == 1);
+      CHECK(ranges[0].first == first);
+      CHECK(ranges[0].first == std::min(lines.size(), blocks.first(ranges[0].block)));
+      CHECK(ranges[0].last - ranges[0].first <= 2U << 18);
+      first = ranges[0].last;
     }
     CHECK(first == lines.size());
-    CHECK(shares_of_rays(LinesOfField({{0, 0, 0}, 1}, 1, 10), blocks, 3)[2].first == 10);
+    CHECK(CutOfRays(LinesOfField({{0, 0, 0}, 1}, 1, 10), blocks, 3).parts()[2][0].first == 10);
+  }
+
+  TEST_CASE("ranks whose heads took longer get less of the rest; every block is in one part") {
+    const LinesOfField lines({{0, 0, 0}, 1}, 1, 300 * (std::uint64_t{1} << 10) + 7);
+    const PhotonBlocks blocks{10};
+    for (const std::vector<double>& seconds :
+         {std::vector{1.0, 1.1, 1.0}, {1.0, 2.0, 1.0}, {5.0, 1.0, 1.0}, {1.0, 1.0, 40.0}, {0.001, 0.002, 0.001}}) {
+      CAPTURE(seconds[0]);
+      CAPTURE(seconds[1]);
+      CutOfRays cut(lines, blocks, 3);
+      REQUIRE(cut.has_rest());
+      for (int rank = 0; rank < 3; ++rank) CHECK(cut.heads()[rank].next_block - cut.heads()[rank].block == 12);
+      cut.correct(seconds);
+      std::vector<int> met(301);
+      std::vector<double> rays(3);
+      for (std::size_t rank = 0; rank < 3; ++rank)
+        for (const ShareOfRays& range : cut.parts()[rank]) {
+          CHECK(range.first == std::min(lines.size(), blocks.first(range.block)));
+          CHECK(range.last == std::min(lines.size(), blocks.first(range.next_block)));
+          for (std::uint64_t block = range.block; block < range.next_block; ++block) ++met[block];
+          rays[rank] += static_cast<double>(range.last - range.first);
+        }
+      for (const int count : met) CHECK(count == 1);
+      const bool equal = seconds[1] == 1.1 || seconds[0] < 0.01;
+      const double head = 12 << 10;
+      const double rest = static_cast<double>(lines.size()) - 3 * head;
+      const double speeds = 1 / seconds[0] + 1 / seconds[1] + 1 / seconds[2];
+      for (std::size_t rank = 0; rank < 3; ++rank) {
+        const double expected = equal ? (rest + 3 * head) / 3 : head + rest / seconds[rank] / speeds;
+        CHECK(std::abs(rays[rank] - expected) <= 2 << 10);
+      }
+    }
+  }
+
+  TEST_CASE("ranks of unequal speed find the bytes of one process, and the slow one has less to do") {
+    const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20, 0.1, 3);
+    const Sphere sphere = enclosing_sphere(discs);
+    constexpr std::uint64_t count = 64 << 15;
+    const StreamedOutcome expected = run_streamed(discs, UnequalLines(sphere, count), techniques[0], options_of(true));
+    for (const int slow : {0, 1, 2}) {
+      CAPTURE(slow);
+      StreamedOutcome found;
+      std::vector<std::uint64_t> loaded(3);
+      const auto thrown = on_ranks(3, [&](Ranks& ranks) {
+        const UnequalLines lines(sphere, count, ranks.rank() == slow ? 0.1 : 0.02);
+        RankedOutcome own = run_on_ranks(discs, lines, techniques[0], options_of(true), ranks);
+        loaded[static_cast<std::size_t>(ranks.rank())] = lines.made();
+        if (ranks.rank() == 0) found = std::move(own.found);
+      });
+      for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+      check_same(found, expected);
+      for (int rank = 0; rank < 3; ++rank)
+        if (rank != slow)
+          CHECK(loaded[static_cast<std::size_t>(slow)] <
+                0.6 * static_cast<double>(loaded[static_cast<std::size_t>(rank)]));
+    }
   }
 
   TEST_CASE("sums of parts that do not follow one another are refused") {

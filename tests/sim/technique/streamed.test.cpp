@@ -124,11 +124,11 @@ TEST_SUITE("known answer") {
     CHECK(streamed.outcome.total_hits == half.total_hits);
   }
 
-  TEST_CASE("a block has four rays for each disc, from 2^20 to 2^22") {
+  TEST_CASE("a block has four rays for each disc, from 2^20 to 2^24") {
     CHECK(default_block(1) == 1U << 20);
     CHECK(default_block(1U << 19) == 1U << 21);
-    CHECK(default_block(3'000'000) == 1U << 22);
-    CHECK(default_block(100'000'000) == 1U << 22);
+    CHECK(default_block(3'000'000) == 1U << 24);
+    CHECK(default_block(100'000'000) == 1U << 24);
   }
 }
 
