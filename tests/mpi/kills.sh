@@ -15,7 +15,7 @@ failures=0
 fail() { echo "FAILED at kill $kill: $*" >&2; failures=$((failures + 1)); }
 now() { date +%s%3N; }
 
-whole='run @cornell --samples 2000 --rays 2500000 --technique box-tree --standard-error --threads 1 --per-disc'
+whole='run @cornell --samples 2000 --rays 5000000 --technique box-tree --standard-error --threads 1 --per-disc'
 until='run @cornell --samples 1000 --disc-radius 3% --target-noise 2.5% --threads 1 --per-disc'
 kill=none
 "$detp" $whole whole.csv > /dev/null 2>&1
