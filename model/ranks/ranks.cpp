@@ -9,7 +9,7 @@
 namespace detp::model {
 namespace {
 
-// 10⁷ discs, 10⁹ lines, one process: 3.6 GB by these numbers; the run took 3.9 GB.
+// README.md compares what these numbers predict with runs.
 constexpr double disc_bytes = 56;
 constexpr double index_bytes = 140;  // of a disc in a box tree: a copy of the disc in its order, and nodes
 constexpr double sums_bytes = 32;    // under way

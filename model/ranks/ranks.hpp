@@ -58,8 +58,9 @@ struct SharedTime {
 ///
 ///     T = [T_m/P] + (1 - f/P) T_m + (T_b + T_s)/P + (P - 1)(L + n_P/P · 20/W)
 ///
-/// The bytes are the numbers of the discs, their hits and irradiance; with standard errors 16 more. A lower bound: culls near the root of the
-/// index are made on each rank, which n_P/P > 2¹⁷ makes small. Throws as share_rays.
+/// The bytes are the numbers of the discs, their hits and irradiance; with standard errors 16 more. The search of a part is
+/// taken to be 1/P of the whole. That is too little for culls near the root of the index, which each rank makes, and too much for visits of discs to
+/// blocks of rays, since a rank's blocks follow its own discs. Throws as share_rays.
 [[nodiscard]] SharedTime share_discs(const SharedSearch& search, double ranks, const Network& network = {});
 
 /// Throws std::invalid_argument unless counts are >= 1 and seconds, bytes >= 0, all finite.

@@ -14,6 +14,7 @@ namespace detp::sim {
 /// the result.
 class PhotonRounds {
  public:
+  /// `most_in_a_round`: photons.
   PhotonRounds(std::string scene, std::uint64_t pieces, std::uint64_t most_in_a_round = 1ULL << 20)
       : scene_(std::move(scene)), pieces_(pieces), most_in_a_round_(most_in_a_round), limit_(1000 + 100 * pieces) {}
 
