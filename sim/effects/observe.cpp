@@ -130,13 +130,19 @@ Workload with_inputs_alone(const Problem& problem, const std::stop_token& stop) 
 }
 
 Workload without_effects(const Problem& problem) {
-  const glm::dvec3 size = problem.centres().size();
-  Workload workload{.rays = static_cast<double>(problem.rays().size()),
-                    .samples = static_cast<double>(problem.discs().size()),
-                    .disc_radius = problem.radii().rms,
-                    .sphere_radius = problem.enclosing().radius,
+  return without_effects({problem.enclosing(), problem.centres(), problem.radii()},
+                         static_cast<double>(problem.discs().size()), static_cast<double>(problem.rays().size()),
+                         problem.segments());
+}
+
+Workload without_effects(const DiscSummary& discs, double samples, double rays, bool rays_end) {
+  const glm::dvec3 size = discs.centres.size();
+  Workload workload{.rays = rays,
+                    .samples = samples,
+                    .disc_radius = discs.radii.rms,
+                    .sphere_radius = discs.enclosing.radius,
                     .box = {size.x, size.y, size.z},
-                    .rays_end = problem.segments()};
+                    .rays_end = rays_end};
   // If all samples are at one point, their box has no size. Then uses a cube with the discs' diameter as side.
   if (!(scene_side(workload) > 0)) workload.box.fill(2 * workload.disc_radius);
   return workload;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "all_effects.hpp"
+#include "detp/sim/search/disc_summary.hpp"
 
 /// Measures what the models need of rays and discs, with the effects that the evidence calls for.
 namespace detp::sim {
@@ -56,6 +57,8 @@ struct Observed {
 /// The workload of the problem if there are no effects: lines, and samples that fill the volume of their box, with discs of the root
 /// mean square radius, both of whose faces count. Needs no evidence.
 [[nodiscard]] Workload without_effects(const Problem& problem);
+/// The same of `samples` discs.
+[[nodiscard]] Workload without_effects(const DiscSummary& discs, double samples, double rays, bool rays_end);
 
 /// The same with the meanings of the input: which faces count, and radii that differ. Needs no evidence. Throws Stopped.
 [[nodiscard]] Workload with_inputs_alone(const Problem& problem, const std::stop_token& stop = {});

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "ranks.hpp"
 
@@ -32,6 +34,15 @@ void share_parts(Ranks& ranks, std::span<T> array) {
   }
   for (int from = 1; from < ranks.count(); ++from) ranks.receive_all(part(from), from);
   for (int to = 1; to < ranks.count(); ++to) ranks.send_all(std::span<const T>(array), to);
+}
+
+/// The largest of the ranks' values, on all ranks.
+template <class T>
+[[nodiscard]] T largest(Ranks& ranks, const T& own) {
+  std::vector<T> all(static_cast<std::size_t>(ranks.count()));
+  all[static_cast<std::size_t>(ranks.rank())] = own;
+  share_parts(ranks, std::span(all));
+  return *std::ranges::max_element(all);
 }
 
 }  // namespace detp::sim

@@ -36,17 +36,29 @@ PowerError error_of_power(double power, double squares, const PhotonSums& sums, 
   return {error, power + one_sided * error};
 }
 
+DiscResult result_of(const FoundSums& found, const ErrorSums* errors, double heaviest, double photons) {
+  const double area = std::numbers::pi * found.radius * found.radius;
+  DiscResult result{.hits = found.hits, .irradiance = found.power / area};
+  if (errors == nullptr) return result;
+  const PhotonSums sums{.largest = errors->largest, .photons = errors->photons};
+  const PowerError error = error_of_power(found.power, errors->squares, sums, heaviest, photons);
+  result.standard_error = error.standard_error / area;
+  result.upper_bound = error.upper_bound / area;
+  return result;
+}
+
 void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, const DiscTotals& sums,
                  const PhotonSums* photons, double heaviest, Outcome& outcome) {
-  const double area = std::numbers::pi * disc.radius * disc.radius;
-  const double power = totals.power(number, sums);
-  outcome.hits[number] = sums.hits;
-  outcome.irradiance[number] = power / area;
+  const FoundSums found{sums.hits, totals.power(number, sums), disc.radius};
+  ErrorSums errors;
+  if (photons != nullptr) errors = {totals.squares(number, *photons), photons->largest, photons->photons};
+  const DiscResult result =
+      result_of(found, photons != nullptr ? &errors : nullptr, heaviest, static_cast<double>(totals.photons()));
+  outcome.hits[number] = result.hits;
+  outcome.irradiance[number] = result.irradiance;
   if (photons == nullptr) return;
-  const PowerError error = error_of_power(power, totals.squares(number, *photons), *photons, heaviest,
-                                          static_cast<double>(totals.photons()));
-  outcome.standard_error[number] = error.standard_error / area;
-  outcome.upper_bound[number] = error.upper_bound / area;
+  outcome.standard_error[number] = result.standard_error;
+  outcome.upper_bound[number] = result.upper_bound;
 }
 
 double heaviest_photon(std::span<const PhotonSums> discs, double largest_power) {

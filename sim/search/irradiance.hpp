@@ -45,6 +45,30 @@ void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome)
 void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, const DiscTotals& sums,
                  const PhotonSums* photons, double heaviest, Outcome& outcome);
 
+/// What was found of one disc.
+struct FoundSums {
+  std::uint64_t hits = 0;
+  double power = 0;  ///< P
+  double radius = 0;
+};
+
+/// What its standard error needs.
+struct ErrorSums {
+  double squares = 0;  ///< Σ x²
+  double largest = 0;  ///< largest x
+  std::uint32_t photons = 0;
+};
+
+struct DiscResult {
+  std::uint64_t hits = 0;
+  double irradiance = 0;
+  double standard_error = unbounded;  ///< infinite: not known
+  double upper_bound = unbounded;
+};
+
+/// By the rules of `finish`. `errors` may be null: then there is no standard error. `heaviest` is w, `photons` N.
+[[nodiscard]] DiscResult result_of(const FoundSums& found, const ErrorSums* errors, double heaviest, double photons);
+
 /// A standard error and a one-sided bound of 95 %, by the rules of `finish`, in the unit of the power.
 struct PowerError {
   double standard_error = unbounded;  ///< infinite: not known

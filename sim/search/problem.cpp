@@ -19,12 +19,6 @@ namespace {
 
 constexpr const char* checking = "checking rays and discs";
 
-void require_number(const char* what, std::size_t count) {
-  if (count == 0) throw std::invalid_argument(fmt::format("there must be at least one {}", what));
-  if (count >= UINT32_MAX)
-    throw std::length_error(fmt::format("{} {}s are too many; the maximum is 4294967294", count, what));
-}
-
 /// The largest power for which the sum over 2⁶⁴ rays, also divided by the smallest disc's area, does not overflow.
 double most_power_for(double smallest_radius) {
   const double area = std::numbers::pi * smallest_radius * smallest_radius;
@@ -48,14 +42,6 @@ double rms_radius(std::span<const Disc> discs, const DiscExtent& extent, StopChe
   double squares = 0;
   for_each_checked(discs, check, [&](const Disc& disc) { squares += disc.radius * disc.radius; });
   return std::sqrt(squares / static_cast<double>(discs.size()));
-}
-
-/// The sphere that is documented at enclosing_sphere.
-Sphere sphere_around(const DiscExtent& extent) {
-  const glm::dvec3 centre = extent.centres.centre();
-  // The distance of the farther corner, as computed: half the diagonal can be an ulp shorter.
-  const double reach = std::max(glm::distance(centre, extent.centres.low), glm::distance(centre, extent.centres.high));
-  return {centre, (reach + extent.largest) * (1 + 1e-15)};
 }
 
 }  // namespace

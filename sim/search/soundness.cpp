@@ -109,9 +109,15 @@ Disc normalised(Disc disc) {
   return disc;
 }
 
-void require_sound(std::span<const Disc> discs, StopCheck& check) {
+void require_number(const char* what, std::uint64_t count) {
+  if (count == 0) throw std::invalid_argument(fmt::format("there must be at least one {}", what));
+  if (count >= UINT32_MAX)
+    throw std::length_error(fmt::format("{} {}s are too many; the maximum is 4294967294", count, what));
+}
+
+void require_sound(std::span<const Disc> discs, StopCheck& check, std::uint64_t first) {
   for_each_checked(0, discs.size(), check, [&](std::size_t i) {
-    if (!surely_sound(discs[i]) && !surely_sound(normalised(discs[i]))) refuse_unsound(discs[i], i);
+    if (!surely_sound(discs[i]) && !surely_sound(normalised(discs[i]))) refuse_unsound(discs[i], first + i);
   });
 }
 
@@ -128,6 +134,13 @@ DiscExtent check_discs(std::span<const Disc> discs, StopCheck check) {
   });
   if (!extent.sound) require_sound(discs, check);
   return extent;
+}
+
+Sphere sphere_around(const DiscExtent& extent) {
+  const glm::dvec3 centre = extent.centres.centre();
+  // The distance of the farther corner, as computed: half the diagonal can be an ulp shorter.
+  const double reach = std::max(glm::distance(centre, extent.centres.low), glm::distance(centre, extent.centres.high));
+  return {centre, (reach + extent.largest) * (1 + 1e-15)};
 }
 
 CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power, std::uint64_t first,

@@ -46,12 +46,18 @@ inline constexpr double unit_tolerance = 1.99e-12;
 [[nodiscard]] Ray normalised(Ray ray);
 [[nodiscard]] Disc normalised(Disc disc);
 
-/// Throws std::invalid_argument, with the disc's number, for a number that is not finite, a coordinate or radius beyond
+/// Throws std::invalid_argument for 0, and std::length_error for more than 2³² - 2.
+void require_number(const char* what, std::uint64_t count);
+
+/// The first disc is number `first` in messages. Throws std::invalid_argument, with the disc's number, for a number that is not finite, a coordinate or radius beyond
 /// 1e100, a radius below 1e-100, and a normal of length 0. Normals may have any other length.
-void require_sound(std::span<const Disc> discs, StopCheck& check);
+void require_sound(std::span<const Disc> discs, StopCheck& check, std::uint64_t first = 0);
 
 /// Checks the discs on all threads of the caller's arena, by the fast tests and if need be by require_sound.
 [[nodiscard]] DiscExtent check_discs(std::span<const Disc> discs, StopCheck check);
+
+/// The sphere that is documented at enclosing_sphere.
+[[nodiscard]] Sphere sphere_around(const DiscExtent& extent);
 
 /// A copy of the discs, which are sound, with unit normals; null if all have unit length to within 1e-12.
 [[nodiscard]] std::shared_ptr<const std::vector<Disc>> normalised_if_needed(std::span<const Disc> discs,

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <memory>
+
+#include "detp/sim/geometry/disc_source.hpp"
 #include "detp/sim/ranks/ranks.hpp"
 #include "detp/sim/search/photon_blocks.hpp"
+#include "part_results.hpp"
 #include "streamed.hpp"
 
 /// A search of streamed rays that ranks share.
@@ -21,6 +25,8 @@ enum class Share { rays, discs };
 struct RankedOutcome {
   StreamedOutcome found;
   std::vector<double> seconds = {};  ///< on rank 0: those that each rank needed for its share; empty if there is one
+  /// on rank 0, if the discs are not in memory: hits, irradiance and pairs, which `found` then lacks
+  std::shared_ptr<const PartResults> results = {};
 };
 
 /// The slowest rank's seconds over their mean, less 1.
@@ -34,24 +40,26 @@ struct RankedOutcome {
 /// compared after an eighth; if the imbalance is over 15 %, the rest is shared anew by their speeds, once. Stopped on some ranks, the outcome has the hits of
 /// the first rays only, up to the first block that is not complete.
 ///
-/// Share::discs: each rank makes all rays, and searches them for its discs, a part of the Morton curve by a cost of 1 + d²/mean d² each; the index
+/// Share::discs: each rank makes all rays, and searches them for its discs, a part of the Morton curve (DiscCut); the index
 /// and the sums are those of its discs. For at least 2²¹ rays and four for each disc, the time of the first 2¹⁷ rays is measured; if its imbalance is
 /// over 15 %, discs are shared anew by it, once. Rays are loaded and culled, and counted, on each rank. Throws Stopped on all ranks if one was
-/// stopped, and std::invalid_argument for fewer discs than ranks.
+/// stopped, and std::invalid_argument for fewer discs than ranks. A rank whose discs do not fit in memory searches all rays for one part of them
+/// after another; then nothing is shared anew. This also happens with one rank, if discs, or their index and results, do not fit; there with pairs only
+/// for discs that are not in memory.
+///
+/// Discs that are not in memory are always shared. Each rank reads all of them, and keeps its part.
+[[nodiscard]] RankedOutcome run_on_ranks(const DiscSource& discs, const RaySource& source,
+                                         const Valid<Candidate>& candidate, const StreamOptions& options, Ranks& ranks,
+                                         Share share = Share::rays);
 [[nodiscard]] RankedOutcome run_on_ranks(std::span<const Disc> discs, const RaySource& source,
                                          const Valid<Candidate>& candidate, const StreamOptions& options, Ranks& ranks,
                                          Share share = Share::rays);
 
-/// One process searches all rays for one part of the discs after another. No standard errors. Throws Stopped, and as run_streamed.
-[[nodiscard]] StreamedOutcome run_in_parts(std::span<const Disc> discs, const RaySource& source,
-                                           const Valid<Candidate>& candidate, const StreamOptions& options, int parts);
+/// One process searches all rays for one part of the discs after another. Throws Stopped, and as run_streamed.
+[[nodiscard]] RankedOutcome run_in_parts(const DiscSource& discs, const RaySource& source,
+                                         const Valid<Candidate>& candidate, const StreamOptions& options, int parts);
 
-/// run_streamed; if that does not fit in memory, and there are no pairs and standard errors, run_in_parts with as few parts as fit, a power of 2.
-/// Throws as run_streamed.
-[[nodiscard]] StreamedOutcome run_in_memory(std::span<const Disc> discs, const RaySource& source,
-                                            const Valid<Candidate>& candidate, const StreamOptions& options);
-
-/// Rays, which balance best; discs where their index and sums would not fit in a rank's memory.
-[[nodiscard]] Share usual_share(std::size_t discs, int ranks);
+/// Rays, which balance best; discs where their index and sums would not fit in the memory of a rank. The same on all ranks.
+[[nodiscard]] Share usual_share(std::size_t discs, Ranks& ranks);
 
 }  // namespace detp::sim

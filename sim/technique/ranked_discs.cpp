@@ -1,12 +1,16 @@
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <utility>
 
+#include "detp/sim/base/floating_point.hpp"
+#include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/sim/geometry/curve_sort.hpp"
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/sim/ranks/parts.hpp"
 #include "detp/sim/search/irradiance.hpp"
+#include "disc_cut.hpp"
+#include "disc_parts.hpp"
 #include "ranked.hpp"
 #include "ranked_part.hpp"
 
@@ -14,279 +18,212 @@ namespace detp::sim {
 namespace {
 
 constexpr std::uint64_t rays_of_pilot = std::uint64_t{1} << 17;
+constexpr double bytes_of_buffers = 24 << 20;  // for parts of discs and their results, which are in files, and the cut
 
-/// The discs in the order of the Morton curve, cut into parts of equal cost.
-class CurveCut {
- public:
-  CurveCut(std::span<const Disc> discs, int ranks, const std::stop_token& stop)
-      : cuts_(static_cast<std::size_t>(ranks) + 1) {
-    Box centres;
-    double squares = 0;
-    for (const Disc& disc : discs) {
-      centres.include(disc.centre);
-      squares += disc.radius * disc.radius;
-    }
-    const double mean = squares / static_cast<double>(discs.size());
-    const stream::CurvePlaces places = stream::sort_along_curve(discs, centres, 1, stop);
-    order_.reserve(discs.size());
-    costs_.reserve(discs.size());
-    for (const stream::CurvePlace place : places) {
-      const std::uint32_t number = stream::place_index(place);
-      order_.push_back(number);
-      costs_.push_back(
-          static_cast<float>(1 + discs[number].radius * discs[number].radius / mean));  // to reach it, and hits
-    }
-    cut();
-  }
-
-  /// The numbers of the rank's discs, rising.
-  [[nodiscard]] std::vector<std::uint32_t> part(int rank) const {
-    const auto number = static_cast<std::size_t>(rank);
-    std::vector<std::uint32_t> numbers(order_.begin() + cuts_[number], order_.begin() + cuts_[number + 1]);
-    std::ranges::sort(numbers);
-    return numbers;
-  }
-
-  /// Cuts anew: the parts so far took so many seconds.
-  void correct(std::span<const double> seconds) {
-    for (std::size_t rank = 0; rank < seconds.size(); ++rank) {
-      double cost = 0;
-      for (std::ptrdiff_t i = cuts_[rank]; i < cuts_[rank + 1]; ++i) cost += costs_[static_cast<std::size_t>(i)];
-      for (std::ptrdiff_t i = cuts_[rank]; i < cuts_[rank + 1]; ++i)
-        costs_[static_cast<std::size_t>(i)] *= static_cast<float>(seconds[rank] / cost);
-    }
-    cut();
-  }
-
- private:
-  /// Each part has at least one disc.
-  void cut() {
-    const double all = std::accumulate(costs_.begin(), costs_.end(), 0.0);
-    const auto parts = static_cast<std::ptrdiff_t>(cuts_.size()) - 1;
-    const auto discs = static_cast<std::ptrdiff_t>(costs_.size());
-    double before = 0;
-    std::ptrdiff_t next = 0;
-    for (std::ptrdiff_t part = 1; part < parts; ++part) {
-      const double wanted = all * static_cast<double>(part) / static_cast<double>(parts);
-      const std::ptrdiff_t least = cuts_[static_cast<std::size_t>(part - 1)] + 1;
-      while (next < discs - (parts - part) && (next < least || before < wanted))
-        before += costs_[static_cast<std::size_t>(next++)];
-      cuts_[static_cast<std::size_t>(part)] = next;
-    }
-    cuts_.back() = discs;
-  }
-
-  std::vector<std::uint32_t> order_;
-  std::vector<float> costs_;  ///< in this order
-  std::vector<std::ptrdiff_t> cuts_;
-};
-
-/// One rank's discs, and what it finds.
+/// The parts of one rank, searched one after another.
 class DiscShare {
  public:
-  DiscShare(std::span<const Disc> all, std::vector<std::uint32_t> numbers, const StreamOptions& options)
-      : numbers_(std::move(numbers)), options_(options), photon_blocks_(PhotonBlocks::for_discs(all.size())) {
-    for (const std::uint32_t number : numbers_) discs_.push_back(all[number]);
+  DiscShare(const DiscSource& discs, const RaySource& source, const Valid<Candidate>& candidate,
+            const StreamOptions& options, std::size_t first, std::size_t count)
+      : discs_(discs),
+        source_(source),
+        candidate_(candidate),
+        options_(options),
+        first_(first),
+        count_(count),
+        results_(options.run.standard_error) {}
+
+  /// Takes its parts of the discs.
+  void take(const DiscCut& cut) {
+    part_.reset();
+    parts_.emplace(discs_, cut, first_, count_, options_.run.stop);
   }
 
-  /// Seconds that the first rays take.
-  [[nodiscard]] double pilot(const RaySource& source, const Valid<Candidate>& candidate) const {
+  /// Seconds that the first rays take in the first part.
+  [[nodiscard]] double pilot() {
+    part_ = parts_->take(0);
     StreamOptions options = options_;
     options.run.pairs = options.run.standard_error = options.run.count = false;
     options.run.progress = {};
     options.progress = {};
     options.last = rays_of_pilot;
-    const StreamedOutcome found = run_streamed(discs_, source, candidate, options);
-    if (found.outcome.stopped) throw Stopped("stopped while the discs were shared", {0, source.size(), "rays"});
+    const StreamedOutcome found = run_streamed(part_->discs, source_, candidate_, options);
+    if (found.outcome.stopped) throw Stopped("stopped while the discs were shared", {0, source_.size(), "rays"});
     return found.outcome.seconds.search;
   }
 
-  void search(const RaySource& source, const Valid<Candidate>& candidate) {
-    if (options_.run.standard_error) totals_.keep_errors();
-    totals_.resize(discs_.size());
-    totals_.set_photon_blocks(photon_blocks_);
-    StreamOptions own = options_;
-    own.run.totals = &totals_;
-    own.run.standard_error = false;
-    found_ = run_streamed(discs_, source, candidate, own);
-    if (found_.outcome.stopped)
-      throw Stopped("stopped after " + std::to_string(found_.outcome.progress.done) + " rays of a share of the discs",
-                    found_.outcome.progress);
-    for (Pair& pair : found_.outcome.pairs) pair.disc = numbers_[pair.disc];
-    totals_.emitted(source.photons());
+  void search() {
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!part_) part_ = parts_->take(i);
+      StreamOptions own = options_;
+      own.kept_bytes += static_cast<double>(part_->discs.size() * sizeof(std::uint32_t));
+      const auto all = static_cast<double>(count_);
+      const auto before = static_cast<double>(i);
+      if (options_.progress) own.progress = [&](double done) { options_.progress((before + done) / all); };
+      if (options_.run.progress)
+        own.run.progress = [&](double share) { options_.run.progress((before + share) / all); };
+      search_part(own);
+      part_.reset();
+    }
   }
 
-  /// Of all photons that met these discs.
-  [[nodiscard]] double largest_power() const {
-    double largest = totals_.largest_power();
-    for (const PhotonSums& sums : totals_.photon_sums()) largest = std::max(largest, sums.largest);
-    return largest;
-  }
-
-  /// `largest_power`: of all shares.
-  void finish(double largest_power) {
-    totals_.set_largest_power(largest_power);
-    sim::finish(totals_, discs_, found_.outcome);
-  }
-
-  [[nodiscard]] const std::vector<std::uint32_t>& numbers() const { return numbers_; }
-  [[nodiscard]] StreamedOutcome& found() { return found_; }
+  [[nodiscard]] StreamedOutcome& found() { return *found_; }
+  [[nodiscard]] PartResults& results() { return results_; }
 
  private:
-  std::vector<std::uint32_t> numbers_;
-  const StreamOptions& options_;
-  PhotonBlocks photon_blocks_;
-  std::vector<Disc> discs_;
-  Totals totals_;
-  StreamedOutcome found_;
-};
-
-/// Puts the values of the discs with these numbers in their places. Empty arrays stay empty.
-template <class T>
-void place(const std::vector<T>& values, const std::vector<std::uint32_t>& numbers, std::size_t discs,
-           std::vector<T>& all) {
-  if (values.empty()) return;
-  all.resize(discs);
-  for (std::size_t i = 0; i < numbers.size(); ++i) all[numbers[i]] = values[i];
-}
-
-struct DiscArrays {
-  std::vector<std::uint32_t> numbers;
-  std::vector<std::uint64_t> hits;
-  std::vector<double> irradiance;
-  std::vector<double> standard_error;
-  std::vector<double> upper_bound;
-};
-
-void place_all(const DiscArrays& from, std::size_t discs, Outcome& all) {
-  place(from.hits, from.numbers, discs, all.hits);
-  place(from.irradiance, from.numbers, discs, all.irradiance);
-  place(from.standard_error, from.numbers, discs, all.standard_error);
-  place(from.upper_bound, from.numbers, discs, all.upper_bound);
-}
-
-}  // namespace
-
-RankedOutcome run_on_shared_discs(std::span<const Disc> discs, const RaySource& source,
-                                  const Valid<Candidate>& candidate, const StreamOptions& options, Ranks& ranks) {
-  if (discs.size() < static_cast<std::size_t>(ranks.count()))
-    throw std::invalid_argument("there are more ranks than discs to share");
-  const std::stop_token& stop = options.run.stop;
-  std::optional<CurveCut> cut;
-  std::optional<DiscShare> share;
-  std::vector<double> seconds(static_cast<std::size_t>(ranks.count()));
-  double& own_seconds = seconds[static_cast<std::size_t>(ranks.rank())];
-  const bool pilots = source.size() >= std::max<std::uint64_t>(16 * rays_of_pilot, 4 * discs.size());
-  do_on_all(ranks, [&] {
-    cut.emplace(discs, ranks.count(), stop);
-    share.emplace(discs, cut->part(ranks.rank()), options);
-    if (pilots) own_seconds = share->pilot(source, candidate);
-  });
-  share_parts(ranks, std::span(seconds));
-  if (pilots && imbalance(seconds) > most_imbalance) {
-    cut->correct(seconds);
-    share.emplace(discs, cut->part(ranks.rank()), options);
+  void search_part(StreamOptions& options) {
+    Totals totals;
+    if (options.run.standard_error) totals.keep_errors();
+    totals.resize(part_->discs.size());
+    totals.set_photon_blocks(PhotonBlocks::for_discs(discs_.size()));
+    options.run.totals = &totals;
+    options.run.standard_error = false;
+    StreamedOutcome found = run_streamed(part_->discs, source_, candidate_, options);
+    Outcome& outcome = found.outcome;
+    if (outcome.stopped)
+      throw Stopped("stopped after " + std::to_string(outcome.progress.done) + " rays of a share of the discs",
+                    outcome.progress);
+    for (Pair& pair : outcome.pairs) pair.disc = part_->numbers[pair.disc];
+    results_.add(*part_, totals, outcome.pairs);
+    outcome.pairs = {};
+    if (!found_) {
+      found_ = std::move(found);
+      return;
+    }
+    const PartOfOutcome later = part_of(found, 0);
+    PartOfOutcome times = part_of(*found_, 0);
+    add_times(later, times);
+    add_found(later, found_->outcome);
+    slow_down_to(times, *found_);
   }
-  cut.reset();
-  std::vector<double> largest(seconds.size());
-  do_on_all(ranks, [&] {
+
+  const DiscSource& discs_;
+  const RaySource& source_;
+  const Valid<Candidate>& candidate_;
+  const StreamOptions& options_;
+  std::size_t first_;
+  std::size_t count_;
+  std::optional<DiscParts> parts_;
+  std::optional<PartOfDiscs> part_;
+  PartResults results_;
+  std::optional<StreamedOutcome> found_;
+};
+
+/// Moves the results of all discs to the outcome's arrays.
+void fill_in(const PartResults& results, Outcome& outcome) {
+  resize_results(static_cast<std::size_t>(results.discs()), results.errors(), outcome);
+  std::size_t disc = 0;
+  results.for_each_disc([&](const DiscResult& result) {
+    outcome.hits[disc] = result.hits;
+    outcome.irradiance[disc] = result.irradiance;
+    if (results.errors()) {
+      outcome.standard_error[disc] = result.standard_error;
+      outcome.upper_bound[disc] = result.upper_bound;
+    }
+    ++disc;
+  });
+  outcome.pairs.reserve(static_cast<std::size_t>(results.pairs()));
+  results.for_each_pair([&](const Pair& pair) { outcome.pairs.push_back(pair); });
+}
+
+/// Nothing if a part did not fit in memory, and `smaller` parts can be tried.
+std::optional<RankedOutcome> search_parts(const DiscSource& discs, const RaySource& source,
+                                          const Valid<Candidate>& candidate, const StreamOptions& options, Ranks& ranks,
+                                          std::size_t each, bool smaller) {
+  const auto count = static_cast<std::size_t>(ranks.count());
+  if (discs.size() < count * each) throw std::invalid_argument("there are more parts than discs to share");
+  DiscShare share(discs, source, candidate, options, static_cast<std::size_t>(ranks.rank()) * each, each);
+  std::optional<DiscCut> cut;
+  std::vector<double> seconds(count);
+  double& own_seconds = seconds[static_cast<std::size_t>(ranks.rank())];
+  std::exception_ptr too_large;
+  const auto do_in_memory = [&](const auto& work) {
+    do_on_all(ranks, [&] {
+      try {
+        work();
+      } catch (const std::length_error&) {
+        too_large = std::current_exception();
+      }
+    });
+    if (smaller && largest(ranks, too_large ? 1 : 0) == 1) return false;
+    agree(ranks, too_large);
+    return true;
+  };
+  const bool pilots =
+      count > 1 && each == 1 && source.size() >= std::max<std::uint64_t>(16 * rays_of_pilot, 4 * discs.size());
+  double order_seconds = 0;
+  const bool piloted = do_in_memory([&] {
     const Stopwatch watch;
-    share->search(source, candidate);
-    largest[static_cast<std::size_t>(ranks.rank())] = share->largest_power();
+    cut.emplace(discs, count * each, options.run.stop);
+    share.take(*cut);
+    order_seconds = watch.seconds();
+    if (pilots) own_seconds = share.pilot();
+  });
+  if (!piloted) return std::nullopt;
+  share_parts(ranks, std::span(seconds));
+  const bool unequal = pilots && imbalance(seconds) > most_imbalance;
+  const bool searched = do_in_memory([&] {
+    if (unequal) {
+      cut->correct(seconds);
+      share.take(*cut);
+    }
+    cut.reset();
+    const Stopwatch watch;
+    share.search();
     own_seconds = watch.seconds();
   });
-  share_parts(ranks, std::span(largest));
-  share->finish(*std::ranges::max_element(largest));
-  RankedOutcome ranked;
-  Outcome& own = share->found().outcome;
+  if (!searched) return std::nullopt;
+  PartResults& results = share.results();
+  const double heaviest = largest(ranks, results.largest_power());
+  RankedOutcome ranked{std::move(share.found())};
+  ranked.found.outcome.seconds.order += order_seconds;
   if (ranks.rank() != 0) {
-    ranks.send_one(part_of(share->found(), own_seconds), 0);
-    send_array(ranks, share->numbers(), 0);
-    send_array(ranks, own.hits, 0);
-    send_array(ranks, own.irradiance, 0);
-    send_array(ranks, own.standard_error, 0);
-    send_array(ranks, own.upper_bound, 0);
-    send_array(ranks, own.pairs, 0);
-    ranked.found = std::move(share->found());
+    ranks.send_one(part_of(ranked.found, own_seconds), 0);
+    results.send(ranks, 0);
     return ranked;
   }
-  StreamedOutcome& all = ranked.found;
-  all = std::move(share->found());
-  Outcome& outcome = all.outcome;
-  const DiscArrays first{share->numbers(), std::move(outcome.hits), std::move(outcome.irradiance),
-                         std::move(outcome.standard_error), std::move(outcome.upper_bound)};
-  for (auto* array : {&outcome.irradiance, &outcome.standard_error, &outcome.upper_bound}) array->clear();
-  outcome.hits.clear();
-  place_all(first, discs.size(), outcome);
-  ranked.seconds.push_back(own_seconds);
+  if (count > 1) ranked.seconds.push_back(own_seconds);
   for (int from = 1; from < ranks.count(); ++from) {
     const auto part = ranks.receive_one<PartOfOutcome>(from);
     add_found(part, ranked.found.outcome);
     slow_down_to(part, ranked.found);
     ranked.seconds.push_back(part.seconds);
-    DiscArrays arrays;
-    arrays.numbers = receive_array<std::uint32_t>(ranks, from);
-    arrays.hits = receive_array<std::uint64_t>(ranks, from);
-    arrays.irradiance = receive_array<double>(ranks, from);
-    arrays.standard_error = receive_array<double>(ranks, from);
-    arrays.upper_bound = receive_array<double>(ranks, from);
-    place_all(arrays, discs.size(), outcome);
-    const std::vector<Pair> pairs = receive_array<Pair>(ranks, from);
-    outcome.pairs.insert(outcome.pairs.end(), pairs.begin(), pairs.end());
+    results.receive(ranks, from);
   }
-  std::ranges::sort(outcome.pairs);
+  results.finish(heaviest, source.photons());
+  if (discs.in_memory().empty())
+    ranked.results = std::make_shared<const PartResults>(std::move(results));
+  else
+    fill_in(results, ranked.found.outcome);
   return ranked;
 }
 
-StreamedOutcome run_in_parts(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
-                             const StreamOptions& options, int parts) {
-  if (options.run.standard_error)
-    throw std::invalid_argument("discs that do not fit in memory are searched in parts, without standard errors");
-  const CurveCut cut(discs, parts, options.run.stop);
-  RankedOutcome ranked;
-  Outcome& all = ranked.found.outcome;
-  for (int part = 0; part < parts; ++part) {
-    StreamOptions own = options;
-    // The discs, their place on the curve and its cost, and the results.
-    own.kept_bytes +=
-        static_cast<double>(discs.size() * (sizeof(Disc) + 2 * sizeof(std::uint32_t) + 2 * sizeof(double)));
-    if (options.progress) own.progress = [&](double done) { options.progress((part + done) / parts); };
-    if (options.run.progress) own.run.progress = [&](double share) { options.run.progress((part + share) / parts); };
-    DiscShare share(discs, cut.part(part), own);
-    share.search(source, candidate);
-    share.finish(share.largest_power());
-    StreamedOutcome& found = share.found();
-    PartOfOutcome counted = part_of(found, 0);
-    counted.phases = {counted.phases.prepare + all.seconds.prepare, counted.phases.order + all.seconds.order,
-                      counted.phases.build + all.seconds.build,
-                      counted.phases.search + all.seconds.search};  // one after another
-    counted.read_seconds += ranked.found.read_seconds;
-    counted.check_seconds += ranked.found.check_seconds;
-    add_found(counted, ranked.found.outcome);
-    slow_down_to(counted, ranked.found);
-    const Outcome& outcome = found.outcome;
-    place_all({share.numbers(), outcome.hits, outcome.irradiance, {}, {}}, discs.size(), all);
-    all.pairs.insert(all.pairs.end(), outcome.pairs.begin(), outcome.pairs.end());
-    all.progress = outcome.progress;
-    ranked.found.block = found.block;
-  }
-  std::ranges::sort(all.pairs);
-  return std::move(ranked.found);
+/// The number of parts of each rank to begin with: their index and sums take about 60 % of the memory.
+std::size_t first_parts(const DiscSource& discs, Ranks& ranks) {
+  const double bytes = bytes_of_disc * static_cast<double>(discs.size()) / ranks.count();
+  const double memory = std::max(memory_budget() - bytes_of_buffers, memory_budget() / 4);
+  const double most = static_cast<double>(discs.size()) / ranks.count();
+  return largest(ranks, static_cast<std::size_t>(std::max(1.0, std::min(most, std::ceil(bytes / (0.6 * memory))))));
 }
 
-StreamedOutcome run_in_memory(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
-                              const StreamOptions& options) {
-  constexpr std::size_t most_parts = 64;
-  try {
-    return run_streamed(discs, source, candidate, options);
-  } catch (const std::length_error&) {
-    if (options.run.pairs || options.run.standard_error) throw;
+}  // namespace
+
+RankedOutcome run_on_shared_discs(const DiscSource& discs, const RaySource& source, const Valid<Candidate>& candidate,
+                                  const StreamOptions& options, Ranks& ranks, std::optional<std::size_t> each) {
+  const DefaultFloatingPoint mode;
+  constexpr std::size_t fewest_discs = 1024;  // in a part, so that the work ends if nothing fits
+  StreamOptions own = options;
+  own.kept_bytes += bytes_of_buffers;
+  if (!discs.in_memory().empty()) {
+    const double results = (2 + (options.run.standard_error ? 2 : 0)) * sizeof(double);
+    own.kept_bytes += static_cast<double>(discs.size()) * (sizeof(Disc) + results);
   }
-  for (std::size_t parts = 2;; parts *= 2) try {
-      return run_in_parts(discs, source, candidate, options, static_cast<int>(parts));
-    } catch (const std::length_error&) {
-      if (2 * parts > std::min(most_parts, discs.size())) throw;
-    }
+  if (each) return *search_parts(discs, source, candidate, own, ranks, *each, false);
+  const auto count = static_cast<std::size_t>(ranks.count());
+  for (std::size_t parts = first_parts(discs, ranks);; parts *= 2) {
+    const bool smaller = discs.size() >= 2 * parts * count * fewest_discs;
+    if (auto found = search_parts(discs, source, candidate, own, ranks, parts, smaller)) return std::move(*found);
+  }
 }
 
 }  // namespace detp::sim

@@ -24,10 +24,11 @@ struct PartOfOutcome {
 /// `seconds`: that the rank needed.
 [[nodiscard]] PartOfOutcome part_of(const StreamedOutcome& found, double seconds);
 
-/// run_on_ranks with Share::discs, on several ranks.
-[[nodiscard]] RankedOutcome run_on_shared_discs(std::span<const Disc> discs, const RaySource& source,
+/// run_on_ranks with Share::discs, on any number of ranks. Each searches `each` parts of the discs one after another; default: as few as are expected to fit in memory,
+/// twice as many if they do not.
+[[nodiscard]] RankedOutcome run_on_shared_discs(const DiscSource& discs, const RaySource& source,
                                                 const Valid<Candidate>& candidate, const StreamOptions& options,
-                                                Ranks& ranks);
+                                                Ranks& ranks, std::optional<std::size_t> each = {});
 
 /// Adds counts and hits, not `done`.
 void add_found(const PartOfOutcome& part, Outcome& all);
@@ -35,6 +36,9 @@ void add_found(const PartOfOutcome& part, Outcome& all);
 void slow_down_to(const PartOfOutcome& part, StreamedOutcome& all);
 /// Adds seconds of a later part of the same rank.
 void add_times(const PartOfOutcome& later, PartOfOutcome& all);
+
+/// Of a disc with its results, a box tree, and totals of 2¹² blocks.
+inline constexpr double bytes_of_disc = 400;
 
 /// Parts are cut anew if their imbalance is larger.
 inline constexpr double most_imbalance = 0.15;

@@ -27,6 +27,32 @@ std::uint64_t digest(const std::vector<T>& values) {
   return hash;
 }
 
+/// Discs that are read, as those of a file are.
+class DiscsElsewhere final : public DiscSource {
+ public:
+  explicit DiscsElsewhere(std::span<const Disc> discs) : discs_(discs) {}
+  [[nodiscard]] std::uint64_t size() const override { return discs_.size(); }
+  void read(std::uint64_t first, std::span<Disc> block, const std::stop_token& stop) const override {
+    discs_.read(first, block, stop);
+  }
+
+ private:
+  DiscsInMemory discs_;
+};
+
+void search_stored(const std::vector<Disc>& discs, const RaySource& source, Ranks& ranks) {
+  const StreamOptions options{.run = {.pairs = true, .standard_error = true}};
+  const Candidate candidate{Technique::box_tree, BoxTreeParameters{}};
+  const RankedOutcome found = run_on_ranks(DiscsElsewhere(discs), source, candidate, options, ranks);
+  if (ranks.rank() != 0) return;
+  std::vector<double> irradiance;
+  std::vector<std::uint64_t> pairs;
+  found.results->for_each_disc([&](const DiscResult& result) { irradiance.push_back(result.irradiance); });
+  found.results->for_each_pair([&](const Pair& pair) { pairs.push_back(std::uint64_t{pair.ray} << 32 | pair.disc); });
+  std::printf("stored discs: irradiance %016llx, pairs %016llx\n", static_cast<unsigned long long>(digest(irradiance)),
+              static_cast<unsigned long long>(digest(pairs)));
+}
+
 void search(const char* what, const std::vector<Disc>& discs, const RaySource& source, Ranks& ranks) {
   const StreamOptions options{.run = {.standard_error = true}};
   for (const Candidate& candidate :
@@ -52,6 +78,7 @@ int main(int argc, char** argv) {
     MpiRanks ranks(MPI_COMM_WORLD);
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, samples, 0.05, 3);
     search("lines", discs, LinesOfField(enclosing_sphere(discs), 1, rays), ranks);
+    search_stored(discs, LinesOfField(enclosing_sphere(discs), 1, rays / 10), ranks);
     const Scene scene = open_scene({"@cornell", samples, 1, {}, {}});
     std::vector<Disc> on_surface;
     for (const Sample& sample : scene.samples) on_surface.push_back({sample.position, sample.normal, 0.05});

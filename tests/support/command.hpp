@@ -37,6 +37,7 @@ struct Finished {
   std::string out;
   std::string err;
   double seconds = 0;
+  double peak_bytes = 0;  ///< of memory, as the system counts it; looked at every few milliseconds
 
   /// The JSON result. Fails the test if stdout is not JSON.
   [[nodiscard]] Json json() const {
@@ -96,7 +97,9 @@ class Process {
 
   [[nodiscard]] Finished finish() {
     int status = 0;
+    double peak_bytes = 0;
     while (::waitpid(id_, &status, WNOHANG) == 0) {
+      peak_bytes = std::max(peak_bytes, peak_bytes_so_far());
       if (Clock::now() - start_ > patience) send(SIGKILL);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -105,10 +108,18 @@ class Process {
             .signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0,
             .out = support::content_of(out_),
             .err = support::content_of(err_),
-            .seconds = std::chrono::duration<double>(Clock::now() - start_).count()};
+            .seconds = std::chrono::duration<double>(Clock::now() - start_).count(),
+            .peak_bytes = peak_bytes};
   }
 
  private:
+  /// That of the program, not of the process from which it was forked.
+  [[nodiscard]] double peak_bytes_so_far() const {
+    const std::string text = support::content_of("/proc/" + std::to_string(id_) + "/status");
+    const std::size_t at = text.find("VmHWM:");
+    return at == std::string::npos ? 0 : 1024.0 * std::atof(text.c_str() + at + 6);
+  }
+
   static constexpr std::chrono::seconds patience{sanitized ? 600 : 60};
 
   support::ScratchFolder folder_;

@@ -1,295 +1,27 @@
 #include "job.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "detp/model/vocabulary/quoted.hpp"
-#include "detp/sim/base/memory.hpp"
-#include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/sim/effects/self_shadow.hpp"
-#include "detp/sim/files/disc_file.hpp"
-#include "detp/sim/files/ray_file.hpp"
-#include "detp/sim/files/ray_row.hpp"
-#include "detp/sim/files/stored_rays.hpp"
-#include "detp/sim/open/open_scene.hpp"
-#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
-#include "detp/sim/photons/photon_source.hpp"
-#include "detp/sim/photons/photon_walk.hpp"
 #include "detp/sim/technique/streamed.hpp"
-#include "job_progress.hpp"
-#include "outliers.hpp"
 
 namespace detp::validate {
-namespace {
 
-constexpr double rays_by_default = 100'000;
-constexpr std::size_t rays_looked_at = 4096;  // of a stream, for outliers; a stream has more
-
-/// `count` as an integer. Throws unless it is a whole number from 1 to 1e18, and `count` things of `bytes` bytes each
-/// fit in memory.
-std::size_t count_in_memory(std::string_view what, double count, std::size_t bytes) {
-  require_count(fmt::format("number of {}", what), count, 1, 1e18);
-  sim::require_memory(fmt::format("{} {}", count, what), count * static_cast<double>(bytes));
-  return static_cast<std::size_t>(count);
-}
-
-double triangle_area(const sim::Mesh& mesh, const std::stop_token& stop) {
-  sim::StopCheck check(stop, "measuring triangles");
-  double area = 0;
-  sim::for_each_checked(std::span(mesh.triangles), check, [&](const auto& corners) {
-    const glm::dvec3& a = mesh.positions[corners[0]];
-    area += 0.5 * glm::length(glm::cross(mesh.positions[corners[1]] - a, mesh.positions[corners[2]] - a));
-  });
-  return area;
-}
-
-double absolute(const Length& length, double side) { return length.relative ? length.value * side : length.value; }
-
-/// Half the distance between samples. The distance is `edge_length`, or if this is 0, that of as many points spread
-/// evenly over a surface (in a volume if the scene has no triangles).
-double default_radius(const sim::Scene& scene, double side, double edge_length) {
-  const double root = scene.mesh.triangles.empty() ? 1.0 / 3 : 0.5;
-  const double spread = side / std::pow(static_cast<double>(scene.samples.size()), root);
-  return 0.5 * (edge_length > 0 ? edge_length : spread);
-}
-
-std::vector<sim::Disc> discs_at(const std::vector<sim::Sample>& samples, double radius, const std::stop_token& stop) {
-  require_positive("disc radius", radius);
-  sim::StopCheck check(stop, "making discs");
-  std::vector<sim::Disc> discs;
-  discs.reserve(samples.size());
-  sim::for_each_checked(std::span(samples), check, [&](const sim::Sample& sample) {
-    discs.push_back({sample.position, sample.normal, radius});
-  });
-  return discs;
-}
-
-bool on_faces(const Workload& workload) { return workload.dimension < 2.5; }
-
-/// The rays of a field that needs no scene.
-std::unique_ptr<const sim::RaySource> field_of_rays(const Job& job, std::uint64_t count, const std::stop_token& stop) {
-  const sim::Sphere sphere = sim::enclosing_sphere(job.discs, stop);
-  if (job.field == sim::Field::isotropic) return std::make_unique<sim::LinesOfField>(sphere, job.seed, count);
+std::unique_ptr<const sim::RaySource> Job::field_rays(std::uint64_t count, const std::stop_token& stop) const {
+  const sim::Sphere sphere = stored_discs ? stored_summary.enclosing : sim::enclosing_sphere(discs, stop);
+  if (field == sim::Field::isotropic) return std::make_unique<sim::LinesOfField>(sphere, seed, count);
   glm::dvec3 down{0.0};
-  down[job.up.axis] = -job.up.sign;
-  sim::Box box;
-  for (const sim::Disc& disc : job.discs) box.include(disc.centre);
+  down[up.axis] = -up.sign;
+  sim::Box box = stored_summary.centres;
+  if (!stored_discs)
+    for (const sim::Disc& disc : discs) box.include(disc.centre);
   glm::dvec3 point = box.centre();
-  point[job.up.axis] = job.up.sign > 0 ? box.high[job.up.axis] : box.low[job.up.axis];
-  return std::make_unique<sim::MixedField>(sim::FieldMixture{sphere, job.shares, down, point}, job.seed, count);
+  point[up.axis] = up.sign > 0 ? box.high[up.axis] : box.low[up.axis];
+  return std::make_unique<sim::MixedField>(sim::FieldMixture{sphere, shares, down, point}, seed, count);
 }
-
-class JobMaker {
- public:
-  JobMaker(const JobRequest& request, std::stop_token stop, const sim::ReportPhase& progress)
-      : request_(request), stop_(std::move(stop)), progress_(progress) {}
-
-  Job make() {
-    sim::Stopwatch watch;
-    progress_.read(request_);
-    sim::in_memory("reading the scene", [&] { request_.numbers_alone() ? from_numbers() : from_scene_and_files(); });
-    job_.front_facing = request_.front_facing;
-    job_.shares = request_.shares;
-    job_.seed = request_.seed;
-    job_.rays_from_file = request_.ray_file.has_value();
-    job_.read_seconds = watch.lap();
-    sim::in_memory("making rays", [&] { make_rays(); });
-    (job_.rays_from_file ? job_.read_seconds : job_.trace_seconds) += watch.lap();
-    progress_.measure(job_.rays.size(), job_.discs.size());
-    sim::in_memory("checking rays and discs", [&] { check_rays_and_discs(); });
-    if (request_.keep_scene && scene_) {
-      job_.scene = std::make_shared<sim::Scene>(std::move(*scene_));
-      job_.caster = caster_;
-    }
-    return std::move(job_);
-  }
-
- private:
-  void from_numbers() {
-    const Workload workload = workload_of_numbers(request_);
-    job_.name = name_of_numbers(workload);
-    job_.discs =
-        sim::uniform_discs(on_faces(workload) ? sim::Body::cube_faces : sim::Body::cube, scene_side(workload),
-                           count_in_memory("samples", workload.samples, sizeof(sim::Sample) + sizeof(sim::Disc)),
-                           workload.disc_radius, request_.seed, stop_);
-  }
-
-  void from_scene_and_files() {
-    if (request_.scene) open_scene();
-    if (request_.disc_file) {
-      if (request_.samples)
-        throw std::invalid_argument("the number of samples is for scenes; a disc file is taken whole");
-      std::optional<double> radius;
-      if (request_.disc_radius && !request_.disc_radius->relative) radius = request_.disc_radius->value;
-      if (request_.disc_radius && request_.disc_radius->relative)
-        throw std::invalid_argument("with a disc file the disc radius must be a length, not a percentage");
-      job_.discs = sim::read_discs(*request_.disc_file, radius, stop_);
-      job_.name = request_.scene ? job_.name : *request_.disc_file;
-    }
-    if (job_.discs.empty()) throw std::invalid_argument("rays alone answer nothing: name a scene or a disc file");
-  }
-
-  void open_scene() {
-    std::optional<std::size_t> samples;
-    if (request_.samples)
-      samples = count_in_memory("samples", *request_.samples, sizeof(sim::Sample) + sizeof(sim::Disc));
-    scene_ = sim::open_scene({*request_.scene, samples, request_.seed, request_.lights, request_.up}, stop_);
-    job_.name = scene_->name;
-    job_.notices = scene_->notices;
-    job_.lights = scene_->lights;
-    job_.up = scene_->up;
-    job_.triangles = scene_->mesh.triangles.size();
-    job_.surface = {triangle_area(scene_->mesh, stop_),
-                    request_.samples ? 0 : sim::mean_edge_length(scene_->mesh, stop_)};
-    const double side = scene_->box.longest_side();
-    const double radius = request_.disc_radius ? absolute(*request_.disc_radius, side)
-                                               : default_radius(*scene_, side, job_.surface.edge_length);
-    job_.discs = discs_at(scene_->samples, radius, stop_);
-  }
-
-  void make_rays() {
-    if (request_.ray_file) {
-      refuse_lights("rays from a file");
-      progress_.read_rays(*request_.ray_file, job_.discs.size());
-      if (request_.rays)
-        throw std::invalid_argument("the number of rays is for fields of rays; a ray file is taken whole");
-      job_.field = sim::Field::photons;
-      if (request_.stream && is_large(*request_.ray_file))
-        job_.stream = sim::StoredRays::open(*request_.ray_file, stop_, request_.ranks);
-      if (job_.stream) return;
-      sim::RayFile file = sim::read_rays(*request_.ray_file, stop_);
-      keep(std::move(file.paths));
-      job_.file_order = std::move(file.order);
-      return;
-    }
-    const double rays = request_.rays.value_or(rays_by_default);
-    require_count("number of rays", rays, 1, 1e18);
-    job_.field = request_.field.value_or(scene_ ? scene_->field : sim::Field::isotropic);
-    if (job_.field != sim::Field::photons)
-      refuse_lights(job_.field == sim::Field::mixed ? "a mixed field" : "isotropic lines");
-    const auto block = static_cast<double>(sim::default_block(job_.discs.size()));
-    const bool stream = request_.stream && rays > block;
-    const double made = request_.workload_only ? std::min(rays, block) : rays;
-    progress_.make_rays(job_.field, made, stream, job_.discs.size());
-    if (stream) return make_stream(static_cast<std::uint64_t>(rays));
-    const bool paths = job_.field == sim::Field::photons;
-    const std::size_t count = count_in_memory(
-        "rays", made, sizeof(sim::Ray) + (paths ? sizeof(std::uint64_t) + sizeof(double) + sizeof(std::uint32_t) : 0));
-    if (job_.field != sim::Field::photons) {
-      read_rays(*field_of_rays(job_, count, stop_));
-      return;
-    }
-    const sim::Scene& scene = scene_for_photons();
-    keep(sim::photon_paths(scene, count, request_.seed, caster_, stop_));
-  }
-
-  /// Its rays fill more than a block, and memory too much, or ranks share them.
-  [[nodiscard]] bool is_large(const std::string& path) const {
-    const auto table = sim::TableFile::open(path, sim::ray_columns());
-    if (!table || table->rows() <= sim::default_block(job_.discs.size())) return false;
-    constexpr double bytes = sizeof(sim::Ray) + sizeof(std::uint64_t) + sizeof(double);
-    return request_.ranks != nullptr || bytes * static_cast<double>(table->rows()) > sim::memory_budget() / 2;
-  }
-
-  void keep(sim::Paths paths) {
-    job_.rays = std::move(paths.rays);
-    job_.photons = std::move(paths.photons);
-    job_.landings = std::move(paths.landings);
-    job_.triangles_met = std::move(paths.triangles);
-    job_.photon_count = paths.photon_count;
-  }
-
-  void refuse_lights(std::string_view rays) const {
-    if (request_.second_intersection)
-      throw std::invalid_argument(fmt::format("--second-intersection is for photon paths; these are {}", rays));
-    if (!request_.lights.empty() || request_.up)
-      throw std::invalid_argument(fmt::format("--light and --up are for photon paths; these are {}", rays));
-  }
-
-  void read_rays(const sim::RaySource& source) {
-    constexpr std::size_t at_once = std::size_t{1} << 18;
-    const std::size_t count = source.size();
-    job_.rays.reserve(count);
-    for (std::size_t made = 0; made < count; made = job_.rays.size()) {
-      job_.rays.resize(std::min(count, made + at_once));
-      source.read(made, std::span(job_.rays).subspan(made), stop_);
-    }
-  }
-
-  /// The scene, whose photon paths go on through surfaces if the effect of concave surfaces is on.
-  const sim::Scene& scene_for_photons() {
-    if (!scene_) throw std::invalid_argument("photon paths need a scene; name one, or choose the isotropic field");
-    caster_ = sim::caster_for(*scene_, stop_);
-    if (request_.second_intersection) {
-      scene_->overshoot = sim::unbounded;
-      return *scene_;
-    }
-    const sim::Finding shadow =
-        sim::self_shadow(*scene_, caster_, job_.discs, request_.front_facing, request_.seed, stop_);
-    if (request_.effects.is_on(sim::concave_surfaces, shadow.value, shadow.standard_error))
-      scene_->overshoot = sim::overshoot_for(job_.discs);
-    job_.surface.self_shadow = shadow;
-    return *scene_;
-  }
-
-  void make_stream(std::uint64_t count) {
-    if (job_.field != sim::Field::photons) {
-      job_.stream = field_of_rays(job_, count, stop_);
-      return;
-    }
-    const sim::Scene& scene = scene_for_photons();
-    job_.stream = std::make_unique<sim::PhotonSource>(scene, count, request_.seed, caster_, stop_, request_.ranks);
-  }
-
-  /// What is out of range must be refused here, not when the workload is measured.
-  void check_numbers() const {
-    Workload workload = cube_workload(1, 1, 1, 1, request_.dimension.value_or(3));
-    workload.sample_extent = request_.sample_extent.value_or(0);
-    check(workload);
-  }
-
-  /// Outliers of a stream are those of its discs and first rays.
-  void check_rays_and_discs() {
-    check_numbers();
-    std::vector<sim::Ray> first;
-    std::optional<sim::Problem> of_first;
-    if (job_.stream) {
-      first.resize(rays_looked_at);
-      job_.stream->read(0, first, stop_);
-      of_first = sim::make_problem(first, job_.discs, job_.front_facing, request_.threads, stop_);
-      job_.given = sim::without_effects(*of_first);
-      job_.given.rays = static_cast<double>(job_.stream->size());
-    } else {
-      job_.check_problem(request_.threads, stop_);
-    }
-    job_.warnings = outlier_warnings(of_first ? *of_first : job_.problem(), stop_);
-    if (request_.workload_only && !request_.ray_file)
-      job_.given.rays = std::max(job_.given.rays, request_.rays.value_or(rays_by_default));
-    const bool numbers = request_.numbers_alone();
-    const Workload known = numbers ? workload_of_numbers(request_) : Workload{};
-    job_.measuring = {.effects = request_.effects,
-                      .dimension = numbers ? std::optional(known.dimension) : request_.dimension,
-                      .sample_extent = numbers ? std::optional(known.sample_extent) : request_.sample_extent,
-                      .threads = request_.threads,
-                      .stop = stop_};
-  }
-
-  const JobRequest& request_;
-  std::stop_token stop_;
-  JobProgress progress_;
-  std::optional<sim::Scene> scene_;
-  std::shared_ptr<const sim::RayCaster> caster_;
-  Job job_;
-};
-
-}  // namespace
 
 void Job::check_problem(int threads, const std::stop_token& stop) {
   const sim::Stopwatch watch;
@@ -307,7 +39,7 @@ sim::Paths Job::more_rays(std::uint64_t made, std::uint64_t batch, std::size_t c
   }
   sim::Paths lines;
   lines.rays.resize(count);
-  field_of_rays(*this, made + count, stop_request)->read(made, lines.rays, stop_request);
+  field_rays(made + count, stop_request)->read(made, lines.rays, stop_request);
   lines.photon_count = count;
   return lines;
 }
@@ -316,7 +48,7 @@ void Job::measure() const {
   std::vector<sim::Ray> block;
   std::optional<sim::Problem> of_block;
   if (stream) {
-    block.resize(sim::default_block(discs.size()));
+    block.resize(static_cast<std::size_t>(std::min<std::uint64_t>(sim::default_block(discs.size()), stream->size())));
     stream->read(0, block, measuring.stop);
     of_block = sim::make_problem(block, discs, front_facing, measuring.threads, measuring.stop);
   }
@@ -324,6 +56,7 @@ void Job::measure() const {
       sim::observe(of_block ? *of_block : problem(), surface, measuring.effects, measuring.stop, measuring.effort);
   workload_ = found.workload;
   workload_.rays = given.rays;
+  workload_.samples = given.samples;  // more than were measured if discs are stored
   if (measuring.dimension) workload_.dimension = *measuring.dimension;
   if (measuring.sample_extent) workload_.sample_extent = *measuring.sample_extent;
   check(workload_);
@@ -343,56 +76,6 @@ const Workload& Job::workload() const {
 const sim::Problem& Job::problem() const {
   if (!problem_) throw std::invalid_argument("the rays are a stream, or were not checked");
   return *problem_;
-}
-
-Length parse_length(std::string_view text) {
-  const bool relative = text.ends_with('%');
-  std::string_view digits = text;
-  if (relative) digits.remove_suffix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc{} || end != digits.data() + digits.size())
-    throw std::invalid_argument(
-        fmt::format("disc radius must be a length or a percentage, as 0.02 or 4% (got {})", shortened(text)));
-  require_positive("disc radius", value);
-  const Length length{relative ? value / 100 : value, relative};
-  require_positive("disc radius", length.value);  // a hundredth of the smallest double is 0
-  return length;
-}
-
-Workload workload_of_numbers(const JobRequest& request) {
-  if (!request.samples) throw std::invalid_argument("without a scene, the number of samples is needed");
-  if (!request.disc_radius) throw std::invalid_argument("without a scene, the disc radius is needed");
-  if (!request.sphere_radius && !request.scene_side)
-    throw std::invalid_argument("without a scene, its size is needed: the radius of S0 or the side of the scene");
-  if (request.sphere_radius) require_positive("sphere radius", *request.sphere_radius);
-  if (request.scene_side) require_positive("scene side", *request.scene_side);
-  double d = request.disc_radius->value;
-  double side = request.scene_side.value_or(0);
-  if (request.disc_radius->relative) {
-    // Solves r₀ = s√3/2 + d for s, where d is the given share of s.
-    if (!request.scene_side) side = *request.sphere_radius / (std::sqrt(0.75) + d);
-    d *= side;
-  }
-  const double outer = request.sphere_radius.value_or(enclosing_radius(side, d));
-  // If d >= r₀, no cube of samples has this r₀. Then uses the cube inscribed in S₀.
-  if (!(side > 0)) side = (d < outer ? outer - d : outer) / std::sqrt(0.75);
-  Workload workload =
-      cube_workload(request.rays.value_or(rays_by_default), *request.samples, d, side, request.dimension.value_or(3));
-  workload.sphere_radius = outer;
-  workload.sample_extent = request.sample_extent.value_or(0);
-  if (request.sample_extent) require_positive("sample extent", *request.sample_extent);
-  workload.front_facing = request.front_facing;
-  check(workload);
-  return workload;
-}
-
-std::string_view name_of_numbers(const Workload& workload) {
-  return on_faces(workload) ? "uniform samples on the faces of a cube" : "uniform samples in a cube";
-}
-
-Job make_job(const JobRequest& request, std::stop_token stop, const sim::ReportPhase& progress) {
-  return JobMaker(request, std::move(stop), progress).make();
 }
 
 }  // namespace detp::validate

@@ -12,11 +12,13 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/effects/observe.hpp"
+#include "detp/sim/geometry/disc_source.hpp"
 #include "detp/sim/photons/ray_caster.hpp"
 #include "detp/sim/ranks/ranks.hpp"
 #include "detp/sim/rays/mixed_field.hpp"
 #include "detp/sim/rays/ray_source.hpp"
 #include "detp/sim/scene/scene.hpp"
+#include "detp/sim/search/disc_summary.hpp"
 #include "detp/sim/technique/technique.hpp"
 
 /// Makes rays, discs and their workload from what a user specifies: numbers, a scene, or files.
@@ -31,6 +33,8 @@ struct Length {
 
 /// Reads "0.02" or "4%". Throws std::invalid_argument for anything else, and unless the length is > 0 and finite.
 [[nodiscard]] Length parse_length(std::string_view text);
+
+inline constexpr double rays_by_default = 100'000;
 
 /// The user's request. Values that are not set get the default below; the job has all values.
 struct JobRequest {
@@ -57,7 +61,9 @@ struct JobRequest {
   /// True if only the workload is needed. If there are more rays than a block (sim::default_block), then only the first
   /// block of rays is made, and the workload is measured on this block. Has no effect on rays from a file.
   bool workload_only = false;
-  bool stream = false;      ///< if the rays are not from a file and fill more than a block, do not keep them in memory
+  bool stream = false;  ///< if the rays are not from a file and fill more than a block, do not keep them in memory
+  /// discs of a file that do not fit in memory stay there if they can be read in any order, and the rays are a stream
+  bool store_discs = false;
   bool keep_scene = false;  ///< the job keeps the scene: for estimators that look at triangles, and for more_rays
   int threads = 1;          ///< for checking rays and discs; 0: all cores
   /// that make the same job together, counting the photons of a stream; null: this process alone
@@ -70,6 +76,9 @@ struct JobRequest {
 /// The workload of a request without scene and files. r₀ and s follow from each other: r₀ = s√3/2 + d. Throws
 /// std::invalid_argument if a number is missing or out of range.
 [[nodiscard]] Workload workload_of_numbers(const JobRequest& request);
+
+/// Samples of a workload without a scene are on the faces of a cube, not in its volume.
+[[nodiscard]] bool on_faces(const Workload& workload);
 
 /// The name of a workload without a scene: "uniform samples in a cube", or "… on the faces of a cube".
 [[nodiscard]] std::string_view name_of_numbers(const Workload& workload);
@@ -85,15 +94,17 @@ struct Measuring {
 };
 
 struct Job {
-  std::string name;  ///< "@tree", a file, or "uniform samples in a cube"
-  std::vector<sim::Disc> discs;
-  std::vector<sim::Ray> rays;                     ///< all rays; empty if they are a stream; see workload_only
-  std::vector<std::uint64_t> photons;             ///< numbers of the rays' photons, as in sim::PathRays
-  std::vector<double> landings;                   ///< where the photons met a surface, as in sim::PathRays
-  std::vector<std::uint32_t> triangles_met = {};  ///< as sim::PathRays::triangles
-  std::uint64_t photon_count = 0;                 ///< photons emitted; 0: one for each ray
-  std::vector<std::uint32_t> file_order;          ///< as sim::RayFile::order
-  std::unique_ptr<const sim::RaySource> stream;   ///< makes ray number i for any i; null if all rays are in memory
+  std::string name;                                     ///< "@tree", a file, or "uniform samples in a cube"
+  std::vector<sim::Disc> discs;                         ///< if they are stored: every k-th
+  std::unique_ptr<const sim::DiscSource> stored_discs;  ///< all discs; null if they are in memory
+  sim::DiscSummary stored_summary = {};                 ///< of all
+  std::vector<sim::Ray> rays;                           ///< all rays; empty if they are a stream; see workload_only
+  std::vector<std::uint64_t> photons;                   ///< numbers of the rays' photons, as in sim::PathRays
+  std::vector<double> landings;                         ///< where the photons met a surface, as in sim::PathRays
+  std::vector<std::uint32_t> triangles_met = {};        ///< as sim::PathRays::triangles
+  std::uint64_t photon_count = 0;                       ///< photons emitted; 0: one for each ray
+  std::vector<std::uint32_t> file_order;                ///< as sim::RayFile::order
+  std::unique_ptr<const sim::RaySource> stream;  ///< makes ray number i for any i; null if all rays are in memory
   sim::Field field = sim::Field::isotropic;
   sim::FieldShares shares = {};  ///< of a mixed field
   std::uint64_t seed = 1;
@@ -114,6 +125,12 @@ struct Job {
   double check_seconds = 0;  ///< time for checking rays and discs, and for S₀
   Measuring measuring = {};
 
+  [[nodiscard]] std::size_t disc_count() const {
+    return stored_discs ? static_cast<std::size_t>(stored_discs->size()) : discs.size();
+  }
+  /// The first `count` rays of a field that needs no scene. Throws as sim::enclosing_sphere.
+  [[nodiscard]] std::unique_ptr<const sim::RaySource> field_rays(std::uint64_t count,
+                                                                 const std::stop_token& stop = {}) const;
   /// Checks rays and discs, as sim::make_problem, and sets `given`; `make_job` has done so. Rays and discs must not change afterwards.
   void check_problem(int threads = 1, const std::stop_token& stop = {});
   /// Further rays of the same kind, at least so many, to the end of the last photon's path. Lines are those that follow the first `made` of the

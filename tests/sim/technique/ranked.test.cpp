@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "../ranks/thread_ranks.hpp"
+#include "detp/sim/base/memory.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
@@ -65,6 +66,42 @@ const std::vector<Candidate> techniques{{Technique::box_tree, BoxTreeParameters{
                                         {Technique::octree, OctreeParameters{3}},
                                         {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
                                         {Technique::grid, GridParameters{8}}};
+
+/// Discs that are read, as those of a file are.
+class DiscsElsewhere final : public DiscSource {
+ public:
+  explicit DiscsElsewhere(std::span<const Disc> discs) : discs_(discs) {}
+  [[nodiscard]] std::uint64_t size() const override { return discs_.size(); }
+  void read(std::uint64_t first, std::span<Disc> block, const std::stop_token& stop) const override {
+    discs_.read(first, block, stop);
+  }
+
+ private:
+  DiscsInMemory discs_;
+};
+
+/// Puts the results of discs that are not in memory where those of others are.
+StreamedOutcome with_arrays(RankedOutcome ranked) {
+  REQUIRE(ranked.results);
+  Outcome& outcome = ranked.found.outcome;
+  CHECK(outcome.hits.empty());
+  CHECK(outcome.pairs.empty());
+  ranked.results->for_each_disc([&](const DiscResult& result) {
+    outcome.hits.push_back(result.hits);
+    outcome.irradiance.push_back(result.irradiance);
+    if (!ranked.results->errors()) return;
+    outcome.standard_error.push_back(result.standard_error);
+    outcome.upper_bound.push_back(result.upper_bound);
+  });
+  ranked.results->for_each_pair([&](const Pair& pair) { outcome.pairs.push_back(pair); });
+  return std::move(ranked.found);
+}
+
+/// Sets the memory limit, and restores the default.
+struct MemoryLimit {
+  explicit MemoryLimit(double bytes) { set_memory_limit(bytes); }
+  ~MemoryLimit() { set_memory_limit(std::nullopt); }
+};
 
 StreamOptions options_of(bool pairs) {
   return {.run = {.pairs = pairs, .standard_error = true}, .block = std::size_t{1} << 17};
@@ -132,12 +169,7 @@ TEST_SUITE("ranks") {
         for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
         check_same_hits(found, expected);
       }
-      StreamOptions without_errors = options_of(true);
-      without_errors.run.standard_error = false;
-      check_same_hits(run_in_parts(discs, lines, techniques[i], without_errors, 3),
-                      run_streamed(discs, lines, techniques[i], without_errors));
-      CHECK_THROWS_AS(static_cast<void>(run_in_parts(discs, lines, techniques[i], options_of(true), 3)),
-                      std::invalid_argument);
+      check_same_hits(run_in_parts(DiscsInMemory(discs), lines, techniques[i], options_of(true), 3).found, expected);
     }
     const Scene scene = open_scene({"@cornell", 200, 1, {}, {}});
     discs.clear();
@@ -155,6 +187,46 @@ TEST_SUITE("ranks") {
       static_cast<void>(run_on_ranks(discs, paths, techniques[0], options_of(true), ranks, Share::discs));
     });
     CHECK_THROWS_AS(std::rethrow_exception(refused[0]), std::invalid_argument);
+  }
+
+  TEST_CASE("discs that are not in memory are searched in parts, on any number of ranks, with the same bytes") {
+    std::vector<Disc> discs = uniform_discs(Body::cube, 2, 30'000, 0.02, 3);
+    for (std::size_t i = 0; i < discs.size(); i += 3) discs[i].radius = 0.04;
+    const DiscsElsewhere elsewhere(discs);
+    const UnequalLines lines(enclosing_sphere(discs), 100'000);
+    StreamOptions options = options_of(true);
+    options.block = std::size_t{1} << 14;
+    for (const Candidate& candidate : techniques) {
+      CAPTURE(describe(candidate));
+      const StreamedOutcome expected = run_streamed(discs, lines, candidate, options);
+      check_same_hits(with_arrays(run_in_parts(elsewhere, lines, candidate, options, 5)), expected);
+      for (const int count : {1, 2, 3}) {
+        StreamedOutcome found;
+        const MemoryLimit limit(36.0 * (1 << 20));
+        const auto thrown = on_ranks(count, [&](Ranks& ranks) {
+          RankedOutcome own = run_on_ranks(elsewhere, lines, candidate, options, ranks);
+          CHECK(own.found.bytes < 36.0 * (1 << 20));
+          CHECK((own.results != nullptr) == (ranks.rank() == 0));
+          if (ranks.rank() == 0) found = with_arrays(std::move(own));
+        });
+        for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+        check_same_hits(found, expected);
+      }
+    }
+  }
+
+  TEST_CASE("discs in memory whose index does not fit are searched in parts, with standard errors") {
+    const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 100'000, 0.01, 3);
+    const UnequalLines lines(enclosing_sphere(discs), 50'000);
+    StreamOptions options = options_of(false);
+    options.block = std::size_t{1} << 14;
+    const StreamedOutcome expected = run_streamed(discs, lines, techniques[0], options);
+    OneRank one;
+    const MemoryLimit limit(40.0 * (1 << 20));
+    CHECK_THROWS_AS(static_cast<void>(run_streamed(discs, lines, techniques[0], options)), std::length_error);
+    check_same_hits(run_on_ranks(discs, lines, techniques[0], options, one).found, expected);
+    const MemoryLimit too_small(20.0 * (1 << 20));
+    CHECK_THROWS_AS(static_cast<void>(run_on_ranks(discs, lines, techniques[0], options, one)), std::length_error);
   }
 
   TEST_CASE("discs that are shared anew, because no ray meets half of them, find the same bytes") {

@@ -129,37 +129,43 @@ sim::EstimateRequest request_of(const RunAnswer& answer, const validate::Job& jo
 }
 
 /// `order`: numbers of the rays in their file; empty if they have the file's order.
-void write_pairs(const std::string& path, const std::vector<sim::Pair>& found, const std::vector<std::uint32_t>& order,
+void write_pairs(const std::string& path, const TimedRun& run, const std::vector<std::uint32_t>& order,
                  const std::stop_token& stop) {
-  std::vector<sim::Pair> pairs = found;
+  std::vector<sim::Pair> pairs;
   if (!order.empty()) {
+    pairs = run.outcome.pairs;
     for (sim::Pair& pair : pairs) pair.ray = order[pair.ray];
     std::ranges::sort(pairs);
   }
-  sim::WritingCheck check(path, pairs.size(), "pairs", stop);
+  const std::vector<sim::Pair>& sorted = order.empty() ? run.outcome.pairs : pairs;
+  sim::WritingCheck check(path, run.results ? run.results->pairs() : sorted.size(), "pairs", stop);
   sim::OutputFile file(path);
   file.write("ray,disc\n");
-  for (const sim::Pair& pair : pairs) {
+  const auto write = [&](const sim::Pair& pair) {
     check.next();
     file.write(fmt::format("{},{}\n", pair.ray, pair.disc));
-  }
+  };
+  if (run.results)
+    run.results->for_each_pair(write);
+  else
+    std::ranges::for_each(sorted, write);
   file.commit();
 }
 
-void write_per_disc(const std::string& path, const sim::Outcome& outcome, const std::stop_token& stop) {
-  sim::WritingCheck check(path, outcome.hits.size(), "discs", stop);
+void write_per_disc(const std::string& path, const TimedRun& run, const std::stop_token& stop) {
+  const bool errors = run.results ? run.results->errors() : !run.outcome.standard_error.empty();
+  sim::WritingCheck check(path, disc_count(run), "discs", stop);
   sim::OutputFile file(path);
-  const bool errors = !outcome.standard_error.empty();
   file.write(errors ? "disc,hits,irradiance,standard_error,upper_bound\n" : "disc,hits,irradiance\n");
-  for (std::size_t disc = 0; disc < outcome.hits.size(); ++disc) {
+  std::uint64_t disc = 0;
+  for_each_disc(run, [&](const sim::DiscResult& found) {
     check.next();
-    const std::string error =
-        !errors                                       ? ""
-        : std::isfinite(outcome.standard_error[disc]) ? fmt::format(",{},", outcome.standard_error[disc])
-        : std::isfinite(outcome.upper_bound[disc])    ? fmt::format(",,{}", outcome.upper_bound[disc])
-                                                      : ",,";  // no surface near the sample
-    file.write(fmt::format("{},{},{}{}\n", disc, outcome.hits[disc], outcome.irradiance[disc], error));
-  }
+    const std::string error = !errors                               ? ""
+                              : std::isfinite(found.standard_error) ? fmt::format(",{},", found.standard_error)
+                              : std::isfinite(found.upper_bound)    ? fmt::format(",,{}", found.upper_bound)
+                                                                    : ",,";  // no surface near the sample
+    file.write(fmt::format("{},{},{}{}\n", disc++, found.hits, found.irradiance, error));
+  });
   file.commit();
 }
 
@@ -196,8 +202,8 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const validat
   if (outcome.stopped) return outcome.progress;
   const bool in_time = !answer.until || answer.until->result.reason != validate::StopReason::time;
   try {
-    if (options.per_disc) write_per_disc(*options.per_disc, outcome, stop);
-    if (options.pairs) write_pairs(*options.pairs, outcome.pairs, job.file_order, stop);
+    if (options.per_disc) write_per_disc(*options.per_disc, answer.run, stop);
+    if (options.pairs) write_pairs(*options.pairs, answer.run, job.file_order, stop);
   } catch (const sim::Stopped& stopped) {
     note(common, fmt::format("{}; the file is not kept", stopped.what()));
     return stopped.progress();
@@ -358,7 +364,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     validate::JobRequest request = options.workload.request(common);
     if (options.seed) request.seed = *options.seed;
     if (options.target.given() && !request.ray_file) request.rays = first_rays(request.rays);
-    request.stream = !needs.all_rays;
+    request.stream = request.store_discs = !needs.all_rays;
     request.keep_scene = needs.scene;
     request.ranks = common.ranks;
     validate::Job job = validate::make_job(request, stop, rows.job(progress.report()));

@@ -31,14 +31,14 @@ Json seconds_json(const Timing& timing, int repeat) {
   return json;
 }
 
-double mean_irradiance(const sim::Outcome& outcome) {
+double mean_irradiance(const RunAnswer& answer) {
   double sum = 0;
-  for (const double irradiance : outcome.irradiance) sum += irradiance;
-  return sum / static_cast<double>(outcome.irradiance.size());
+  for_each_disc(answer.run, [&](const sim::DiscResult& result) { sum += result.irradiance; });
+  return sum / static_cast<double>(disc_count(answer.run));
 }
 
-double hits_per_disc(const sim::Outcome& outcome) {
-  return static_cast<double>(outcome.total_hits) / static_cast<double>(outcome.hits.size());
+double hits_per_disc(const RunAnswer& answer) {
+  return static_cast<double>(answer.run.outcome.total_hits) / static_cast<double>(disc_count(answer.run));
 }
 
 /// The counts of the choice come from a pilot. Of brute force it knows all but the hits.
@@ -99,8 +99,8 @@ Json hits_so_far(const RunAnswer& answer) {
 std::string hits_text(const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
   if (!outcome.stopped)
-    return fmt::format("{}, {:.4g} a disc; mean irradiance {:.6g}", outcome.total_hits, hits_per_disc(outcome),
-                       mean_irradiance(outcome));
+    return fmt::format("{}, {:.4g} a disc; mean irradiance {:.6g}", outcome.total_hits, hits_per_disc(answer),
+                       mean_irradiance(answer));
   std::string text =
       fmt::format("{} of the {} {} done", outcome.total_hits, outcome.progress.done, outcome.progress.unit);
   if (const auto all = estimate(answer)) {
@@ -124,8 +124,8 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   }
   json.update(outcome.stopped ? hits_so_far(answer)
                               : Json{{"hits", outcome.total_hits},
-                                     {"hits_per_disc", hits_per_disc(outcome)},
-                                     {"mean_irradiance", mean_irradiance(outcome)}});
+                                     {"hits_per_disc", hits_per_disc(answer)},
+                                     {"mean_irradiance", mean_irradiance(answer)}});
   json["rays"] = whole(job.given.rays);
   json["photons"] = job.independent_photons();
   if (answer.until) json.update(to_json(*answer.until));

@@ -32,7 +32,7 @@ TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, 
   const bool pairs = record_of(request.estimator).finds_pairs;
   const std::string doing(pairs ? name(candidate.technique) : name(request.estimator));
   const double work = progress && pairs ? predicted_work(job.given, candidate, options.engine) : 0;
-  const double block = job.stream ? static_cast<double>(sim::default_block(job.discs.size())) : job.given.rays;
+  const double block = job.stream ? static_cast<double>(sim::default_block(job.disc_count())) : job.given.rays;
   const double each = std::min(1.0, block / job.given.rays);  // a block's share of the rays
   const auto show = [&](double done) {
     if (progress) progress({doing, done, std::min(1.0, done + each), each * work});
@@ -43,13 +43,18 @@ TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, 
   if (job.stream) {
     sim::OneRank one;
     sim::Ranks& ranks = together.ranks != nullptr ? *together.ranks : one;
-    const sim::Share share = together.share.value_or(sim::usual_share(job.discs.size(), ranks.count()));
+    const sim::DiscsInMemory in_memory(job.discs);
+    const sim::DiscSource& discs = job.stored_discs ? *job.stored_discs : in_memory;
+    const sim::Share share = job.stored_discs ? sim::Share::discs
+                             : together.share ? *together.share
+                                              : sim::usual_share(job.discs.size(), ranks);
     const sim::StreamOptions stream{.run = reporting, .front_facing = job.front_facing, .progress = show};
-    sim::RankedOutcome ranked = sim::run_on_ranks(job.discs, *job.stream, candidate, stream, ranks, share);
+    sim::RankedOutcome ranked = sim::run_on_ranks(discs, *job.stream, candidate, stream, ranks, share);
     sim::StreamedOutcome& streamed = ranked.found;
     return {std::move(streamed.outcome), streamed.check_seconds,
             streamed.read_seconds,       streamed.block,
-            std::move(ranked.seconds),   share};
+            std::move(ranked.seconds),   share,
+            std::move(ranked.results)};
   }
   return {sim::estimate(job.problem(), request, reporting), job.check_seconds, 0, job.rays.size()};
 }

@@ -19,7 +19,24 @@ struct TimedRun {
   std::size_t rays_in_memory = 0;         ///< maximum number of rays in memory at a time
   std::vector<double> rank_seconds = {};  ///< of each rank (sim::RankedOutcome); empty if one process searched
   sim::Share share = sim::Share::rays;    ///< among ranks
+  /// hits, irradiance and pairs, which the outcome lacks, if the discs are not in memory; null on other ranks
+  std::shared_ptr<const sim::PartResults> results = {};
 };
+
+[[nodiscard]] inline std::uint64_t disc_count(const TimedRun& run) {
+  return run.results ? run.results->discs() : run.outcome.hits.size();
+}
+/// Calls visit(const sim::DiscResult&) for all discs, in their order.
+template <class Visit>
+void for_each_disc(const TimedRun& run, const Visit& visit) {
+  if (run.results) return run.results->for_each_disc(visit);
+  const sim::Outcome& found = run.outcome;
+  const bool errors = !found.standard_error.empty();
+  for (std::size_t disc = 0; disc < found.hits.size(); ++disc)
+    visit(sim::DiscResult{found.hits[disc], found.irradiance[disc],
+                          errors ? found.standard_error[disc] : sim::unbounded,
+                          errors ? found.upper_bound[disc] : sim::unbounded});
+}
 
 /// The processes that search together.
 struct Together {

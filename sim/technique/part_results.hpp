@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "detp/sim/base/sorted_runs.hpp"
+#include "detp/sim/geometry/disc_source.hpp"
+#include "detp/sim/ranks/ranks.hpp"
+#include "detp/sim/search/irradiance.hpp"
+
+namespace detp::sim {
+
+/// The discs of a part, and their numbers among all discs, rising.
+struct PartOfDiscs {
+  std::vector<std::uint32_t> numbers;
+  std::vector<Disc> discs;
+};
+
+/// What searches for parts of the discs have found. Need not fit in memory (SpillFile).
+class PartResults {
+ public:
+  explicit PartResults(bool errors) : errors_(errors) {}
+
+  /// `totals`: of all rays and the part's discs. `pairs`: sorted, with the discs' numbers among all.
+  void add(const PartOfDiscs& part, const Totals& totals, std::span<const Pair> pairs);
+  /// Of all photons that met these discs.
+  [[nodiscard]] double largest_power() const { return largest_power_; }
+
+  /// To another rank, which receives it.
+  void send(Ranks& ranks, int to) const;
+  void receive(Ranks& ranks, int from);
+
+  /// When all parts are here: the largest power that one photon brought to a disc, and the number of photons.
+  void finish(double heaviest, std::uint64_t photons);
+
+  [[nodiscard]] bool errors() const { return errors_; }
+  [[nodiscard]] std::uint64_t discs() const { return sums_.size(); }
+  [[nodiscard]] std::uint64_t pairs() const { return pairs_.size(); }
+  /// Calls visit(const DiscResult&) for all discs, in the order of their numbers.
+  template <class Visit>
+  void for_each_disc(const Visit& visit) const {
+    typename SortedRuns<Sums>::Reader sums(sums_);
+    typename SortedRuns<Errors>::Reader errors(error_sums_);
+    Sums one;
+    Errors error;
+    while (sums.next(one)) visit(result_of(one.sums, errors.next(error) ? &error.sums : nullptr, heaviest_, photons_));
+  }
+  /// Calls visit(Pair) for all pairs, sorted.
+  template <class Visit>
+  void for_each_pair(const Visit& visit) const {
+    typename SortedRuns<Pair>::Reader pairs(pairs_);
+    Pair pair{};
+    while (pairs.next(pair)) visit(pair);
+  }
+
+ private:
+  struct Sums {
+    std::uint64_t disc = 0;
+    FoundSums sums;
+    bool operator<(const Sums& other) const { return disc < other.disc; }
+  };
+  struct Errors {
+    std::uint64_t disc = 0;
+    ErrorSums sums;
+    bool operator<(const Errors& other) const { return disc < other.disc; }
+  };
+
+  bool errors_;
+  SortedRuns<Sums> sums_;
+  SortedRuns<Errors> error_sums_;
+  SortedRuns<Pair> pairs_;
+  double largest_power_ = 0;
+  double heaviest_ = 0;
+  double photons_ = 0;
+};
+
+}  // namespace detp::sim
