@@ -100,6 +100,14 @@ void Totals::fold(std::size_t disc, std::uint64_t from, std::uint64_t to, DiscTo
   photons->squares = glm::dvec3{0.0};
 }
 
+void Totals::prefetch(std::size_t disc, std::uint64_t from) const {
+  const std::size_t used = std::min(levels_.size(), static_cast<std::size_t>(std::countr_one(from)) + 1);
+  for (std::size_t level = 0; level < used; ++level) {
+    __builtin_prefetch(&levels_[level].power[disc], 1);
+    if (keeps_errors_) __builtin_prefetch(&levels_[level].squares[disc], 1);
+  }
+}
+
 void Totals::begin_at(std::uint64_t block) {
   origin_ = block_ = block;
   rays_ = photon_blocks().first(block);  // if rays are photons

@@ -61,8 +61,10 @@ class Totals {
   /// Makes room for the levels that blocks up to this one need, for so many discs. To be called before `fold`.
   void make_levels(std::size_t discs, std::uint64_t last_block);
   /// For one disc: block number `from` is complete, and blocks between it and `to` are empty. Moves its sums into the
-  /// levels, and empties them. `photons` may be null.
+  /// levels, and empties them. `photons` may be null. Different discs may be folded by several threads.
   void fold(std::size_t disc, std::uint64_t from, std::uint64_t to, DiscTotals& sums, PhotonSums* photons);
+  /// Asks for what `fold` of the disc will use.
+  void prefetch(std::size_t disc, std::uint64_t from) const;
   /// All discs have been folded up to this block.
   void begin_block(std::uint64_t block) { block_ = block; }
 

@@ -50,6 +50,20 @@ std::size_t find_hits(std::span<const ClassCounts> hits, std::size_t& place, std
   return count;
 }
 
+/// Calls visit(place) for all places, in parallel. Some places before that, calls fetch(place): what the visit will use, in another order than that of
+/// the places, is then on its way from memory.
+template <class Fetch, class Visit>
+void for_each_place(std::size_t places, const Fetch& fetch, const Visit& visit) {
+  constexpr std::size_t at_once = std::size_t{1} << 14;
+  constexpr std::size_t ahead = 16;
+  sim::parallel_for(ParallelRange(0, places, at_once), [&](const ParallelRange& part) {
+    for (std::size_t place = part.begin(); place < part.end(); ++place) {
+      fetch(std::min(place + ahead, part.end() - 1));
+      visit(place);
+    }
+  });
+}
+
 template <class Element>
 double bytes_of(const std::pmr::vector<Element>& array) {
   return static_cast<double>(array.size()) * sizeof(Element);
@@ -83,9 +97,17 @@ void DiscResults::ensure_sums() {
   if (totals().keeps_errors()) photons_.resize(tree_.discs.size());
   if (options_.totals == nullptr) return;
   if (totals().empty()) totals().resize(tree_.discs.size());
-  for (std::size_t place = 0; place < sums_.size(); ++place) sums_[place] = totals()[tree_.order[place]];
-  for (std::size_t place = 0; place < photons_.size(); ++place)
-    photons_[place] = totals().photon_sums(tree_.order[place]);
+  const Totals& all = totals();
+  for_each_place(
+      sums_.size(),
+      [&](std::size_t place) {
+        hwy::Prefetch(&all[tree_.order[place]]);
+        if (!photons_.empty()) hwy::Prefetch(&all.photon_sums(tree_.order[place]));
+      },
+      [&](std::size_t place) {
+        sums_[place] = all[tree_.order[place]];
+        if (!photons_.empty()) photons_[place] = all.photon_sums(tree_.order[place]);
+      });
 }
 
 /// Moves the sums of earlier blocks of photons into the totals.
@@ -94,8 +116,12 @@ void DiscResults::begin_photons(std::size_t first_ray) {
   const std::uint64_t block = photon_blocks(problem_, options_).of(problem_.photon(first_ray, first_photon_));
   if (block == before) return;
   add_counted_hits();
-  for (std::size_t place = 0; place < sums_.size(); ++place)
-    totals().fold(tree_.order[place], before, block, sums_[place], photons_.empty() ? nullptr : &photons_[place]);
+  Totals& all = totals();
+  for_each_place(
+      sums_.size(), [&](std::size_t place) { all.prefetch(tree_.order[place], before); },
+      [&](std::size_t place) {
+        all.fold(tree_.order[place], before, block, sums_[place], photons_.empty() ? nullptr : &photons_[place]);
+      });
   totals().begin_block(block);
 }
 
@@ -124,11 +150,20 @@ BlockSearch DiscResults::begin(const Frame& frame, const Block& rays) {
 
 void DiscResults::add_counted_hits() {
   ensure_sums();
+  std::atomic<std::uint64_t> found = 0;
+  sim::parallel_for(ParallelRange(0, sums_.size(), 1U << 14),
+                    [&](const auto& range) { found += add_counted_hits(range.begin(), range.end()); });
+  found_ += found;
+}
+
+/// The same for the discs at places first … last - 1. Returns the number of their hits.
+std::uint64_t DiscResults::add_counted_hits(std::size_t first, std::size_t last) {
+  std::uint64_t found = 0;
   std::optional<RepeatedSums> sums;
   std::optional<RepeatedSums> squares;
   if (counted_power_) sums.emplace(*counted_power_, options_.memory);
   if (counted_power_ && !photons_.empty()) squares.emplace(*counted_power_ * *counted_power_, options_.memory);
-  for (std::size_t place = 0; place < sums_.size(); ++place) {
+  for (std::size_t place = first; place < last; ++place) {
     PhotonSums* const photons = squares ? &photons_[place] : nullptr;
     std::uint32_t added = 0;
     for (int k = 0; k < classes; ++k) {
@@ -138,11 +173,12 @@ void DiscResults::add_counted_hits() {
       added += count;
     }
     sums_[place].hits += added;
-    found_ += added;
+    found += added;
     if (photons == nullptr || added == 0) continue;
     photons->largest = std::max(photons->largest, *counted_power_);
     photons->add_photons(added);
   }
+  return found;
 }
 
 void DiscResults::end_complete_block(const Block& block, std::uint64_t tests) {
@@ -269,16 +305,27 @@ void DiscResults::store_totals() {
   if (own) resize_results(sums_.size(), !photons_.empty(), outcome_);
   for (PhotonSums& photons : photons_) photons.close();
   const double heaviest = heaviest_photon(photons_, problem_.largest_power());
-  for (std::size_t place = 0; place < sums_.size(); ++place) {
+  Totals& all = totals();
+  const auto fetch = [&](std::size_t place) {
+    const std::uint32_t disc = tree_.order[place];
+    if (!own) {
+      hwy::Prefetch(&all[disc]);
+      return;
+    }
+    hwy::Prefetch(&problem_.discs()[disc].radius);
+    hwy::Prefetch(&outcome_.hits[disc]);
+    hwy::Prefetch(&outcome_.irradiance[disc]);
+  };
+  for_each_place(sums_.size(), fetch, [&](std::size_t place) {
     const std::uint32_t disc = tree_.order[place];
     const PhotonSums* const photons = photons_.empty() ? nullptr : &photons_[place];
     if (own) {
       finish_disc(own_, problem_.discs()[disc], disc, sums_[place], photons, heaviest, outcome_);
     } else {
-      totals()[disc] = sums_[place];
-      if (photons != nullptr) totals().photon_sums(disc) = *photons;
+      all[disc] = sums_[place];
+      if (photons != nullptr) all.photon_sums(disc) = *photons;
     }
-  }
+  });
 }
 
 }  // namespace detp::sim::stream

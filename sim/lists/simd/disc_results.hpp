@@ -99,6 +99,7 @@ class DiscResults {
   void ensure_sums();
   void begin_photons(std::size_t first_ray);
   void add_counted_hits();
+  std::uint64_t add_counted_hits(std::size_t first, std::size_t last);
   void store_counted() const;
   [[nodiscard]] std::uint64_t store_counted(std::size_t first, std::size_t last) const;
   void store_totals();
