@@ -5,6 +5,7 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/memory.hpp"
+#include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/scene/built_in/built_in.hpp"
 
@@ -15,14 +16,16 @@ std::vector<Disc> uniform_discs(Body body, double side, std::size_t count, doubl
   const DefaultFloatingPoint mode;
   require_positive("cube side", side);
   require_positive("disc radius", radius);
-  require_memory(fmt::format("{} discs and samples", count),
-                 static_cast<double>(count) * (sizeof(Disc) + sizeof(Sample)));
+  require_memory(fmt::format("{} discs", count), static_cast<double>(count) * sizeof(Disc));
+  StopCheck check(stop, "making discs");
   std::vector<Disc> discs;
   discs.reserve(count);
-  for (const Sample& sample : built_in::uniform_samples(count, seed, stop)) {
+  for (std::size_t i = 0; i < count; ++i) {
+    check.after(1);
+    const Sample sample = built_in::uniform_sample(i, seed);
     glm::dvec3 position = sample.position;
     if (body == Body::cube_faces) {
-      const int face = static_cast<int>(6 * uniform4(seed, Stream::samples, discs.size(), 2)[0]);
+      const int face = static_cast<int>(6 * uniform4(seed, Stream::samples, i, 2)[0]);
       position[face / 2] = face % 2 == 0 ? -1 : 1;
     }
     discs.push_back({.centre = 0.5 * side * position, .normal = sample.normal, .radius = radius});

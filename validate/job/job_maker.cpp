@@ -100,10 +100,9 @@ class JobMaker {
   void from_numbers() {
     const Workload workload = workload_of_numbers(request_);
     job_.name = name_of_numbers(workload);
-    job_.discs =
-        sim::uniform_discs(on_faces(workload) ? sim::Body::cube_faces : sim::Body::cube, scene_side(workload),
-                           count_in_memory("samples", workload.samples, sizeof(sim::Sample) + sizeof(sim::Disc)),
-                           workload.disc_radius, request_.seed, stop_);
+    job_.discs = sim::uniform_discs(on_faces(workload) ? sim::Body::cube_faces : sim::Body::cube, scene_side(workload),
+                                    count_in_memory("samples", workload.samples, sizeof(sim::Disc)),
+                                    workload.disc_radius, request_.seed, stop_);
   }
 
   void from_scene_and_files() {

@@ -49,8 +49,9 @@ struct LitMesh {
 /// the floor reflects leaves the scene.
 [[nodiscard]] LitMesh sunlit();
 
-/// `count` points uniform in the cube [-1, 1]³ with isotropic normals. Each sample is a function of the seed and of its
-/// number. Throws Stopped if a stop was requested.
+/// A point uniform in the cube [-1, 1]³ with an isotropic normal, as a function of its number and of the seed.
+[[nodiscard]] Sample uniform_sample(std::size_t number, std::uint64_t seed);
+/// The first `count` of them. Throws Stopped if a stop was requested.
 [[nodiscard]] std::vector<Sample> uniform_samples(std::size_t count, std::uint64_t seed,
                                                   const std::stop_token& stop = {});
 

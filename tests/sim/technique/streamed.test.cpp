@@ -83,6 +83,35 @@ TEST_SUITE("identity") {
     }
   }
 
+  TEST_CASE(
+      "sums of many discs over several blocks of photons are the same on one thread and on several, and by both "
+      "engines") {
+    const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20'000, 0.02, 3);
+    REQUIRE(discs.size() > 1U << 14);  // a thread has at least so many
+    const std::uint64_t count = 300'000;
+    REQUIRE(count > 2 * PhotonBlocks::for_discs(discs.size()).first(1));
+    std::vector<Ray> rays = LineField(enclosing_sphere(discs), 4).lines(0, count);
+    const std::vector<Ray> equal = rays;
+    for (std::size_t i = 0; i < rays.size(); ++i) rays[i].power = std::pow(10, 10 * uniform4(5, Stream::tests, i)[0]);
+    for (const auto& some : {rays, equal}) {
+      StreamOptions options{.run = {.engine = Engine::plain}, .block = 100'000};
+      options.run.standard_error = true;
+      const Candidate by_ray{Technique::octree, OctreeParameters{4}};
+      const Outcome plain = run_streamed(discs, RaysInMemory(some), by_ray, options).outcome;
+      options.run.engine = Engine::simd;
+      for (const int threads : {1, 2, 5}) {
+        options.run.threads = threads;
+        const Candidate by_lists{Technique::box_tree, BoxTreeParameters{8, 8}};
+        const Outcome found = run_streamed(discs, RaysInMemory(some), by_lists, options).outcome;
+        CHECK(found.hits == plain.hits);
+        CHECK(found.irradiance == plain.irradiance);
+        CHECK(found.standard_error == plain.standard_error);
+        CHECK(found.upper_bound == plain.upper_bound);
+        CHECK(found.total_hits == plain.total_hits);
+      }
+    }
+  }
+
   TEST_CASE("an index is built once, and its build counts do not depend on the block size") {
     for (const Candidate& candidate : {Candidate{Technique::octree, OctreeParameters{2}},
                                        {Technique::grid, GridParameters{6}},
