@@ -217,6 +217,9 @@ RankedOutcome run_on_shared_discs(const DiscSource& discs, const RaySource& sour
   if (!discs.in_memory().empty()) {
     const double results = (2 + (options.run.standard_error ? 2 : 0)) * sizeof(double);
     own.kept_bytes += static_cast<double>(discs.size()) * (sizeof(Disc) + results);
+    do_on_all(ranks, [&] {
+      require_memory(std::to_string(discs.size()) + " discs and their results, part by part,", own.kept_bytes);
+    });
   }
   if (each) return *search_parts(discs, source, candidate, own, ranks, *each, false);
   const auto count = static_cast<std::size_t>(ranks.count());

@@ -19,17 +19,7 @@
 #include "successive_search.hpp"
 
 namespace detp::sim {
-namespace {
-
-/// As many rays as take an eighth of the memory budget, but at least 2¹⁵.
-std::size_t block_in_memory() {
-  constexpr std::size_t least = std::size_t{1} << 15;
-  constexpr double rays_in_most = 1e12;
-  const double rays = std::min(memory_budget() / (8 * sizeof(Ray)), rays_in_most);
-  return std::max(least, std::bit_floor(static_cast<std::size_t>(rays)));
-}
-
-}  // namespace
+namespace {}  // namespace
 
 StreamedSearch::StreamedSearch(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
                                const StreamOptions& options)
@@ -38,8 +28,7 @@ StreamedSearch::StreamedSearch(std::span<const Disc> discs, const RaySource& sou
       run_(options.run),
       expected_(options.last.value_or(source.size()) - options.first),
       problem_(problem_of(discs)) {
-  const std::size_t block =
-      options.block > 0 ? options.block : std::min(default_block(discs.size()), block_in_memory());
+  const std::size_t block = options.block > 0 ? options.block : block_in_memory(discs.size());
   streamed_.block = static_cast<std::size_t>(std::min<std::uint64_t>(block, expected_));
   predict_bytes();
   try {
@@ -127,6 +116,13 @@ std::size_t default_block(std::size_t discs) {
   constexpr std::size_t least = std::size_t{1} << 20;
   constexpr std::size_t most = std::size_t{1} << 24;
   return std::bit_ceil(std::clamp(4 * std::min(discs, most), least, most));
+}
+
+std::size_t block_in_memory(std::size_t discs) {
+  constexpr std::size_t least = std::size_t{1} << 15;
+  constexpr double rays_in_most = 1e12;
+  const double rays = std::min(memory_budget() / (8 * sizeof(Ray)), rays_in_most);
+  return std::min(default_block(discs), std::max(least, std::bit_floor(static_cast<std::size_t>(rays))));
 }
 
 StreamedOutcome run_streamed(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,

@@ -13,12 +13,11 @@ namespace detp::sim {
 struct StreamOptions {
   RunOptions
       run;  ///< with run.totals, a part of the rays is added to these; then the outcome has no hits and irradiance
-  std::uint64_t first = 0;                 ///< number of the first ray that is searched
-  std::optional<std::uint64_t> last = {};  ///< one more than that of the last; default: all rays of the source
-  bool count_building = true;              ///< the outcome's counts include those of building the index
-  bool front_facing = false;               ///< count only rays that arrive at a disc's front
-  std::size_t block =
-      0;  ///< rays in memory at a time; 0: default_block, or fewer so that they take an eighth of the memory budget
+  std::uint64_t first = 0;                         ///< number of the first ray that is searched
+  std::optional<std::uint64_t> last = {};          ///< one more than that of the last; default: all rays of the source
+  bool count_building = true;                      ///< the outcome's counts include those of building the index
+  bool front_facing = false;                       ///< count only rays that arrive at a disc's front
+  std::size_t block = 0;                           ///< rays in memory at a time; 0: block_in_memory
   double kept_bytes = 0;                           ///< of the caller, that count against the memory budget, too
   std::function<void(double done)> progress = {};  ///< called before each block, 0 <= done < 1
 };
@@ -37,6 +36,9 @@ struct StreamedOutcome {
 /// rays as there are discs. The processor's caches do not matter: techniques that trace rays one by one process a block
 /// in chunks of 64 rays, and a grid (10⁶ discs) takes the same time for blocks of 2¹⁶ and of 10⁶ rays.
 [[nodiscard]] std::size_t default_block(std::size_t discs);
+
+/// The same, or fewer rays so that they take an eighth of the memory budget, but at least 2¹⁵.
+[[nodiscard]] std::size_t block_in_memory(std::size_t discs);
 
 /// Runs a candidate over any number of rays. The result is that of `run`, bit for bit (hits, irradiance, pairs), for
 /// any block size. The index over the discs is built once. `first` and `last` select a part of the rays.

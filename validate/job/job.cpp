@@ -48,7 +48,7 @@ void Job::measure() const {
   std::vector<sim::Ray> block;
   std::optional<sim::Problem> of_block;
   if (stream) {
-    block.resize(static_cast<std::size_t>(std::min<std::uint64_t>(sim::default_block(discs.size()), stream->size())));
+    block.resize(static_cast<std::size_t>(std::min<std::uint64_t>(sim::block_in_memory(discs.size()), stream->size())));
     stream->read(0, block, measuring.stop);
     of_block = sim::make_problem(block, discs, front_facing, measuring.threads, measuring.stop);
   }

@@ -61,7 +61,8 @@ struct JobRequest {
   /// True if only the workload is needed. If there are more rays than a block (sim::default_block), then only the first
   /// block of rays is made, and the workload is measured on this block. Has no effect on rays from a file.
   bool workload_only = false;
-  bool stream = false;  ///< if the rays are not from a file and fill more than a block, do not keep them in memory
+  /// if the rays are not from a file, and fill more than a block or do not fit in memory beside the discs and an index, do not keep them in memory
+  bool stream = false;
   /// discs of a file that do not fit in memory stay there if they can be read in any order, and the rays are a stream
   bool store_discs = false;
   bool keep_scene = false;  ///< the job keeps the scene: for estimators that look at triangles, and for more_rays

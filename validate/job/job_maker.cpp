@@ -140,8 +140,20 @@ class JobMaker {
   /// With their results they take more than half the memory of a process.
   [[nodiscard]] bool are_large(std::uint64_t discs) const {
     constexpr double bytes = sizeof(sim::Disc) + 4 * sizeof(double);
-    const bool large = bytes * static_cast<double>(discs) > sim::memory_budget() / 2;
-    return request_.ranks != nullptr ? sim::largest(*request_.ranks, large ? 1 : 0) == 1 : large;
+    return on_any_rank(bytes * static_cast<double>(discs) > sim::memory_budget() / 2);
+  }
+
+  /// Ranks can have different limits, but must do the same.
+  [[nodiscard]] bool on_any_rank(bool here) const {
+    return request_.ranks != nullptr ? sim::largest(*request_.ranks, here ? 1 : 0) == 1 : here;
+  }
+
+  /// Rays in memory, discs, and the index and results of most techniques do not fit.
+  [[nodiscard]] bool all_are_large(double rays) const {
+    constexpr double bytes_of_disc = 400;
+    return on_any_rank(static_cast<double>(sizeof(sim::Ray)) * rays +
+                           bytes_of_disc * static_cast<double>(job_.disc_count()) >
+                       sim::memory_budget());
   }
 
   void open_scene() {
@@ -188,7 +200,7 @@ class JobMaker {
     if (job_.field != sim::Field::photons)
       refuse_lights(job_.field == sim::Field::mixed ? "a mixed field" : "isotropic lines");
     const auto block = static_cast<double>(sim::default_block(job_.disc_count()));
-    const bool stream = job_.stored_discs || (request_.stream && rays > block);
+    const bool stream = job_.stored_discs || (request_.stream && (rays > block || all_are_large(rays)));
     const double made = request_.workload_only ? std::min(rays, block) : rays;
     progress_.make_rays(job_.field, made, stream, job_.disc_count());
     if (stream) return make_stream(static_cast<std::uint64_t>(rays));

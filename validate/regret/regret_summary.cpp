@@ -9,12 +9,12 @@
 namespace detp::validate {
 namespace {
 
-using Rows = std::vector<const RegretRow*>;
+using RegretRows = std::vector<const RegretRow*>;
 /// The ratio of a row; nullopt if the row has none.
 using RatioOf = std::function<std::optional<Regret>(const RegretRow&)>;
 
 template <class IsIn>
-Figures figures_where(const Rows& rows, const RatioOf& ratio_of, IsIn is_in) {
+Figures figures_where(const RegretRows& rows, const RatioOf& ratio_of, IsIn is_in) {
   std::vector<Regret> ratios;
   for (const RegretRow* row : rows)
     if (is_in(*row))
@@ -22,20 +22,20 @@ Figures figures_where(const Rows& rows, const RatioOf& ratio_of, IsIn is_in) {
   return figures_of(ratios);
 }
 
-Figures all_figures(const Rows& rows, const RatioOf& ratio_of) {
+Figures all_figures(const RegretRows& rows, const RatioOf& ratio_of) {
   return figures_where(rows, ratio_of, [](const RegretRow& /*row*/) { return true; });
 }
 
-Figures fitted_figures(const Rows& rows, const RatioOf& ratio_of) {
+Figures fitted_figures(const RegretRows& rows, const RatioOf& ratio_of) {
   return figures_where(rows, ratio_of, [](const RegretRow& row) { return !row.workload.held_out; });
 }
 
-RegretFigures regret_figures(const Rows& rows, const RatioOf& ratio_of) {
+RegretFigures regret_figures(const RegretRows& rows, const RatioOf& ratio_of) {
   return {all_figures(rows, ratio_of), fitted_figures(rows, ratio_of),
           figures_where(rows, ratio_of, [](const RegretRow& row) { return row.workload.held_out; })};
 }
 
-PredictionFigures prediction_figures(const Rows& rows, std::size_t tier) {
+PredictionFigures prediction_figures(const RegretRows& rows, std::size_t tier) {
   std::vector<double> errors;
   for (const RegretRow* row : rows) {
     const ChoiceRow& one = row->choices[tier];
@@ -46,7 +46,7 @@ PredictionFigures prediction_figures(const Rows& rows, std::size_t tier) {
   return {errors.size(), median(errors), quantile(errors, 0.95)};
 }
 
-TierSummary tier_summary(const Rows& rows, std::size_t tier) {
+TierSummary tier_summary(const RegretRows& rows, std::size_t tier) {
   const auto price = [tier](const RegretRow& row) -> std::optional<Regret> {
     const ChoiceRow& one = row.choices[tier];
     if (row.best_seconds < shortest_priced_run) return std::nullopt;
@@ -61,7 +61,7 @@ RatioOf option_of(std::size_t baseline, std::size_t option) {
   return [baseline, option](const RegretRow& row) { return row.baselines[baseline][option]; };
 }
 
-BaselineSummary baseline_summary(const Rows& rows, std::size_t baseline) {
+BaselineSummary baseline_summary(const RegretRows& rows, std::size_t baseline) {
   BaselineSummary summary;
   double least = 0;
   for (std::size_t option = 0; option < rows.front()->baselines[baseline].size(); ++option) {
@@ -93,7 +93,7 @@ Figures figures_of(std::span<const Regret> ratios) {
 }
 
 RegretSummary summarise(std::span<const RegretRow> rows, int threads) {
-  Rows of_threads;
+  RegretRows of_threads;
   for (const RegretRow& row : rows)
     if (row.threads == threads) of_threads.push_back(&row);
   RegretSummary summary{.threads = threads, .rows = of_threads.size(), .tiers = {}, .baselines = {}, .noise = {}};
