@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "../support/discs_elsewhere.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/photon_source.hpp"
@@ -12,6 +13,7 @@
 
 using namespace detp;
 using namespace detp::sim;
+using support::DiscsElsewhere;
 
 namespace {
 
@@ -26,19 +28,6 @@ std::uint64_t digest(const std::vector<T>& values) {
   }
   return hash;
 }
-
-/// Discs that are read, as those of a file are.
-class DiscsElsewhere final : public DiscSource {
- public:
-  explicit DiscsElsewhere(std::span<const Disc> discs) : discs_(discs) {}
-  [[nodiscard]] std::uint64_t size() const override { return discs_.size(); }
-  void read(std::uint64_t first, std::span<Disc> block, const std::stop_token& stop) const override {
-    discs_.read(first, block, stop);
-  }
-
- private:
-  DiscsInMemory discs_;
-};
 
 void search_stored(const std::vector<Disc>& discs, const RaySource& source, Ranks& ranks) {
   const StreamOptions options{.run = {.pairs = true, .standard_error = true}};

@@ -1,25 +1,14 @@
 #include <doctest/doctest.h>
 
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
-#include "detp/sim/base/memory.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "support/memory_limit.hpp"
 
 using namespace detp;
 using namespace detp::sim;
-
-namespace {
-
-struct MemoryLimit {
-  explicit MemoryLimit(double bytes) { set_memory_limit(bytes); }
-  ~MemoryLimit() { set_memory_limit(std::nullopt); }
-  MemoryLimit(const MemoryLimit&) = delete;
-  MemoryLimit& operator=(const MemoryLimit&) = delete;
-};
-
-}  // namespace
+using support::MemoryLimit;
 
 TEST_SUITE("bad input") {
   TEST_CASE("pairs that would not fit in memory are refused before allocation; the hits alone are found") {

@@ -15,9 +15,13 @@
 #include "detp/sim/search/irradiance.hpp"
 #include "detp/sim/technique/ranked_rays.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "support/discs_elsewhere.hpp"
+#include "support/memory_limit.hpp"
 
 using namespace detp;
 using namespace detp::sim;
+using support::DiscsElsewhere;
+using support::MemoryLimit;
 
 namespace {
 
@@ -67,19 +71,6 @@ const std::vector<Candidate> techniques{{Technique::box_tree, BoxTreeParameters{
                                         {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
                                         {Technique::grid, GridParameters{8}}};
 
-/// Discs that are read, as those of a file are.
-class DiscsElsewhere final : public DiscSource {
- public:
-  explicit DiscsElsewhere(std::span<const Disc> discs) : discs_(discs) {}
-  [[nodiscard]] std::uint64_t size() const override { return discs_.size(); }
-  void read(std::uint64_t first, std::span<Disc> block, const std::stop_token& stop) const override {
-    discs_.read(first, block, stop);
-  }
-
- private:
-  DiscsInMemory discs_;
-};
-
 /// Puts the results of discs that are not in memory where those of others are.
 StreamedOutcome with_arrays(RankedOutcome ranked) {
   REQUIRE(ranked.results);
@@ -96,12 +87,6 @@ StreamedOutcome with_arrays(RankedOutcome ranked) {
   ranked.results->for_each_pair([&](const Pair& pair) { outcome.pairs.push_back(pair); });
   return std::move(ranked.found);
 }
-
-/// Sets the memory limit, and restores the default.
-struct MemoryLimit {
-  explicit MemoryLimit(double bytes) { set_memory_limit(bytes); }
-  ~MemoryLimit() { set_memory_limit(std::nullopt); }
-};
 
 StreamOptions options_of(bool pairs) {
   return {.run = {.pairs = pairs, .standard_error = true}, .block = std::size_t{1} << 17};
