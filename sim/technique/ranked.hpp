@@ -19,6 +19,9 @@ struct ShareOfRays {
   std::uint64_t next_block = 0;
 };
 
+/// About the memory that a search needs for each disc: the disc with its results, a box tree, and totals of 2¹² blocks.
+inline constexpr double bytes_of_disc = 400;
+
 /// What ranks share.
 enum class Share { rays, discs };
 
@@ -44,8 +47,8 @@ struct RankedOutcome {
 /// and the sums are those of its discs. For at least 2²¹ rays and four for each disc, the time of the first 2¹⁷ rays is measured; if its imbalance is
 /// over 15 %, discs are shared anew by it, once. Rays are loaded and culled, and counted, on each rank. Throws Stopped on all ranks if one was
 /// stopped, and std::invalid_argument for fewer discs than ranks. A rank whose discs do not fit in memory searches all rays for one part of them
-/// after another; then nothing is shared anew. This also happens with one rank, if discs, or their index and results, do not fit; there with pairs only
-/// for discs that are not in memory.
+/// after another; then nothing is shared anew. One rank alone does the same. If the discs are in memory and pairs are requested, it throws
+/// std::length_error instead.
 ///
 /// Discs that are not in memory are always shared. Each rank reads all of them, and keeps its part.
 [[nodiscard]] RankedOutcome run_on_ranks(const DiscSource& discs, const RaySource& source,

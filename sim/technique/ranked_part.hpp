@@ -37,9 +37,6 @@ void slow_down_to(const PartOfOutcome& part, StreamedOutcome& all);
 /// Adds seconds of a later part of the same rank.
 void add_times(const PartOfOutcome& later, PartOfOutcome& all);
 
-/// Of a disc with its results, a box tree, and totals of 2¹² blocks.
-inline constexpr double bytes_of_disc = 400;
-
 /// Parts are cut anew if their imbalance is larger.
 inline constexpr double most_imbalance = 0.15;
 

@@ -23,6 +23,7 @@
 #include "detp/sim/photons/photon_source.hpp"
 #include "detp/sim/photons/photon_walk.hpp"
 #include "detp/sim/ranks/parts.hpp"
+#include "detp/sim/technique/ranked.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "job_progress.hpp"
 #include "outliers.hpp"
@@ -150,9 +151,8 @@ class JobMaker {
 
   /// Rays in memory, discs, and the index and results of most techniques do not fit.
   [[nodiscard]] bool all_are_large(double rays) const {
-    constexpr double bytes_of_disc = 400;
     return on_any_rank(static_cast<double>(sizeof(sim::Ray)) * rays +
-                           bytes_of_disc * static_cast<double>(job_.disc_count()) >
+                           sim::bytes_of_disc * static_cast<double>(job_.disc_count()) >
                        sim::memory_budget());
   }
 
