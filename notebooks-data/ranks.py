@@ -48,12 +48,12 @@ def main():
                 found, memory = taken(detp, arguments, processes, share, threads)
                 choice = detp.ask(f"choose {arguments} --ranks {processes} --threads {threads} --calibration {costs.name} --technique box-tree")
                 expected = choice["ranks"]["shares"][share]
-                make = found["trace_seconds"]
                 seconds = found["seconds"]
+                make = found["trace_seconds"] + seconds["prepare"]
                 predicted_make = expected["count_seconds"] + expected["make_seconds"]
                 scene = arguments.split()[0] if arguments.startswith("@") else "lines"
                 table.add(scene, found["rays"], found["inputs"]["samples"], processes, threads, share, f"{make:.4g}",
-                          f"{seconds['build']:.4g}", f"{seconds['total'] - seconds['build']:.4g}", f"{make + seconds['total']:.4g}", memory,
+                          f"{seconds['build']:.4g}", f"{seconds['total'] - seconds['prepare'] - seconds['build']:.4g}", f"{found['trace_seconds'] + seconds['total']:.4g}", memory,
                           f"{predicted_make:.4g}", f"{expected['build_seconds']:.4g}", f"{expected['search_seconds']:.4g}",
                           f"{expected['predicted_seconds']:.4g}", f"{choice['ranks']['predicted_seconds_error']:.2g}", round(expected["memory"]))
                 sys.stdout.flush()

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/model/vocabulary/engine.hpp"
@@ -66,6 +67,21 @@ double collect_seconds(double ranks, double bytes, const Network& network) {
 
 }  // namespace
 
+double share_of_each_ray(const Prediction& prediction, const UnitCosts& costs, double discs) {
+  const Counts<double>& counts = prediction.counts;
+  const auto* const tree = std::get_if<BoxTreeParameters>(&prediction.candidate.parameters);
+  const double children = tree != nullptr ? tree->fan_out : 0;
+  const Counts<double> each{.loaded = counts.loaded,
+                            .segments = counts.segments,
+                            .cull_tests = std::min(counts.cull_tests, children * counts.loaded),
+                            .culls = children * detp::blocks_of(counts.loaded, discs),
+                            .references = discs};
+  const Technique technique = prediction.candidate.technique;
+  const CostBreakdown all = price(counts, costs, technique);
+  const double search = all.total() - all.order - all.build;
+  return search > 0 ? std::min(1.0, price(each, costs, technique).total() / search) : 0;
+}
+
 void check(const SharedSearch& search) {
   require_count("number of rays", search.rays, 1, 1e18);
   require_positive("number of photons", search.photons);
@@ -74,6 +90,9 @@ void check(const SharedSearch& search) {
   require_non_negative("seconds for making rays", search.make_seconds);
   require_non_negative("seconds for the index", search.build_seconds);
   require_non_negative("seconds for the search", search.search_seconds);
+  require_non_negative("seconds of each ray", search.each_ray_seconds);
+  if (search.each_ray_seconds > search.search_seconds)
+    throw std::invalid_argument("the seconds of each ray are a part of those of the search");
   require_non_negative("bytes of the scene", search.scene_bytes);
   require_non_negative("bytes of kept rays", search.kept_bytes);
 }
@@ -103,7 +122,7 @@ SharedTime share_discs(const SharedSearch& search, double ranks, const Network& 
   return {.count = search.photon_paths ? search.make_seconds / ranks : 0,
           .make = (1 - kept_share(search, ranks) / ranks) * search.make_seconds,
           .build = search.build_seconds / ranks,
-          .search = search.search_seconds / ranks,
+          .search = search.each_ray_seconds + (search.search_seconds - search.each_ray_seconds) / ranks,
           .collect = collect_seconds(ranks, message, network),
           .memory = fixed_bytes(search, ranks) + search_bytes(search, discs, levels_of(blocks_of(search))) +
                     discs * disc_bytes,

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "detp/model/vocabulary/prediction.hpp"
+#include "detp/model/vocabulary/unit_costs.hpp"
+
 /// Processes (ranks) that share a search.
 namespace detp::model {
 
@@ -12,10 +15,11 @@ struct SharedSearch {
   bool photon_paths = false;          ///< they are made once to count them; those that are not kept are made again
   double kept_bytes = 0;              ///< of counted photon paths, that a rank keeps at most
   bool standard_errors = false;
-  double make_seconds = 0;  ///< for making all rays once
+  double make_seconds = 0;  ///< for making all rays once, and checking them
   double build_seconds = 0;
   double search_seconds = 0;
-  double scene_bytes = 0;  ///< of what every rank has besides discs: the mesh and its ray caster
+  double each_ray_seconds = 0;  ///< of these, for what each ray takes however few the discs are
+  double scene_bytes = 0;       ///< of what every rank has besides discs: the mesh and its ray caster
 };
 
 /// Point to point, between rank 0 and another.
@@ -56,14 +60,19 @@ struct SharedTime {
 
 /// Ranks share the discs: each makes all rays but those it keeps from counting, and has an index and sums of its own discs.
 ///
-///     T = [T_m/P] + (1 - f/P) T_m + (T_b + T_s)/P + (P - 1)(L + n_P/P · 20/W)
+///     T = [T_m/P] + (1 - f/P) T_m + T_r + (T_b + T_s - T_r)/P + (P - 1)(L + n_P/P · 20/W)
 ///
-/// The bytes are the numbers of the discs, their hits and irradiance; with standard errors 16 more. The search of a part is
-/// taken to be 1/P of the whole. That is too little for culls near the root of the index, which each rank makes, and too much for visits of discs to
-/// blocks of rays, since a rank's blocks follow its own discs. Throws as share_rays.
+/// T_r is the part of T_s that each ray takes however few the discs are, such as bringing it into the search. The bytes are the numbers of the
+/// discs, their hits and irradiance; with standard errors 16 more. The rest of the search is taken to be shared evenly. That is too little for culls
+/// some levels below the root of the index, which several ranks make for the same rays, and too much for visits of discs to blocks of rays, since a
+/// rank's blocks follow its own discs. Throws as share_rays.
 [[nodiscard]] SharedTime share_discs(const SharedSearch& search, double ranks, const Network& network = {});
 
-/// Throws std::invalid_argument unless counts are >= 1 and seconds, bytes >= 0, all finite.
+/// The share of a predicted search that each ray takes however few the discs are: for bringing it into the search, and for
+/// the tests of a box tree's nodes below the root; 0 to 1.
+[[nodiscard]] double share_of_each_ray(const Prediction& prediction, const UnitCosts& costs, double discs);
+
+/// Throws std::invalid_argument unless counts are >= 1 and seconds, bytes >= 0, all finite, and unless the search takes at least each_ray_seconds.
 void check(const SharedSearch& search);
 
 }  // namespace detp::model

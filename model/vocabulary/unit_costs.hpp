@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "counts.hpp"
+#include "engine.hpp"
 #include "technique.hpp"
 
 namespace detp {
@@ -32,6 +33,8 @@ struct UnitCosts {
   double ends = 0;        ///< e: what the ends of rays add to a test against a sphere, a box or a disc
   double far = 0;         ///< m: handling one disc, for each doubling of their number above near_discs
   double uncached = 0;    ///< o: sorting or placing one disc, for each doubling of their number above cached_discs
+  double long_test = 0;   ///< x: what a list that no near cache holds adds to a test of one of its rays
+  double far_ray = 0;     ///< y: what a ray that no cache holds adds to bringing it into a search
   double start = 0;       ///< a: fixed cost of a run
 
   bool operator==(const UnitCosts&) const = default;
@@ -89,6 +92,27 @@ inline constexpr double cached_discs = 1.2e5;
   return discs > cached_discs ? discs * std::log2(discs / cached_discs) : 0;
 }
 
+/// A list of up to about this many rays stays in the second-level cache.
+inline constexpr double near_rays = 0x1p16;
+/// Up to about this many rays stay in the last-level cache from their making to their search.
+inline constexpr double cached_rays = 0x1p17;
+
+/// The tests of rays in lists of more than near_rays rays: the share of all tests by which lists shrink from a block of rays to
+/// near_rays, on a logarithmic scale that ends at the mean list. Every level of a hierarchy makes about as many tests.
+[[nodiscard]] inline double long_tests(const Counts<double>& counts) {
+  constexpr double many = 1e9;  // more discs make no difference
+  const double discs = std::min(many, std::max({counts.placements, counts.sorted, counts.references}));
+  const double block = std::min(counts.loaded, static_cast<double>(rays_in_block(static_cast<std::size_t>(discs))));
+  if (!(block > near_rays && counts.culls > 0)) return 0;
+  const double mean = std::clamp(counts.cull_tests / counts.culls, 1.0, near_rays);
+  return counts.cull_tests * std::log(block / near_rays) / std::log(block / mean);
+}
+
+/// The rays beyond cached_rays.
+[[nodiscard]] inline double far_rays(const Counts<double>& counts) {
+  return std::max(0.0, counts.loaded - cached_rays);
+}
+
 /// One count, for UnitCostTerm::quantity.
 template <auto count>
 [[nodiscard]] constexpr double quantity_of(const Counts<double>& counts) {
@@ -130,6 +154,10 @@ inline constexpr std::array unit_cost_terms{
                  "handling a disc, for each doubling of the number of discs above 10 000"},
     UnitCostTerm{"o", &UnitCosts::uncached, uncached_discs, CostEngine::both, &CostBreakdown::build,
                  "sorting or placing a disc, for each doubling of the number of discs above 120 000"},
+    UnitCostTerm{"x", &UnitCosts::long_test, long_tests, CostEngine::lists, &CostBreakdown::rebuild,
+                 "what a list of more than 65 536 rays adds to a test"},
+    UnitCostTerm{"y", &UnitCosts::far_ray, far_rays, CostEngine::both, &CostBreakdown::start,
+                 "what each ray beyond 131 072 adds to bringing it into a search"},
     UnitCostTerm{"a", &UnitCosts::start, [](const Counts<double>&) { return 1.0; }, CostEngine::both,
                  &CostBreakdown::start, "a run, whatever it does"},
 };

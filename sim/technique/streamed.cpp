@@ -19,7 +19,6 @@
 #include "successive_search.hpp"
 
 namespace detp::sim {
-namespace {}  // namespace
 
 StreamedSearch::StreamedSearch(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
                                const StreamOptions& options)

@@ -19,7 +19,7 @@ namespace detp::validate {
 namespace {
 
 constexpr double longest_run = 0.06;      ///< seconds; a longer run is stopped and left out
-constexpr double longest_of_large = 0.2;  ///< the same with many discs or many rays
+constexpr double longest_of_large = 0.3;  ///< the same with many discs or many rays
 constexpr int rounds_of_workload = 6;
 constexpr int most_repeats = 4;            ///< in a round
 constexpr double enough_in_round = 0.005;  ///< seconds after which a run is not repeated in the same round

@@ -13,7 +13,7 @@
 namespace detp::validate {
 
 struct CalibrationOptions {
-  double seconds = 17;  ///< no run starts after this time, but some small workloads are always measured
+  double seconds = 25;  ///< no run starts after this time, but some small workloads are always measured
   int threads = 0;      ///< most threads of a run; 0: all cores; 1: costs of threads are not measured
   std::stop_token stop = {};
   sim::ReportPhase progress = {};
@@ -39,11 +39,11 @@ struct Calibration : CalibrationQuality {
   [[nodiscard]] const EngineCalibration& of(Engine engine) const { return engine == Engine::plain ? plain : simd; }
 };
 
-/// Times all exact techniques, with several parameters each, on samples in a cube and on its faces: 10² … 10⁵ discs (10⁶
-/// once), 10² … 10⁵ rays, from few to very many hits; by both engines where they differ. The samples are uniform, those of
+/// Times all exact techniques, with several parameters each, on samples in a cube and on its faces: 10² … 10⁵ discs and rays, from
+/// few to very many hits; by both engines where they differ; box trees and brute force also with up to 10⁶ discs or rays. The samples are uniform, those of
 /// every third workload in clusters. The discs of half the workloads are in order along a curve. The rays of half the
 /// workloads are isotropic lines; those of the others are pieces of such lines, or of paths from sample to sample. Runs of
-/// more than 0.06 s are left out.
+/// more than 0.06 s (0.3 s with so many discs or rays) are left out.
 ///
 /// The candidates of a workload are timed in rounds. In a round, each is run up to four times in succession, until 0.005 s
 /// have passed; the shortest time counts, of the wall clock or of the processor: time that other programs took is no cost.

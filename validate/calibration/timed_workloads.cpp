@@ -24,9 +24,12 @@ bool has_paths(std::size_t place) { return place % 8 == 6 || place % 8 == 7; }
 /// Those whose runs are short even with many discs or many rays.
 std::vector<Candidate> candidates_of_large(const TimedWorkload& workload, std::size_t place) {
   const int leaf = workload.rays > workload.samples ? 8 : place % 2 == 0 ? 64 : 256;
-  return {{Technique::brute_force, BruteForceParameters{}},
-          {Technique::box_tree, BoxTreeParameters{8, leaf}},
-          {Technique::box_tree, BoxTreeParameters{16, 2 * leaf}}};
+  std::vector<Candidate> list{{Technique::box_tree, BoxTreeParameters{8, leaf}},
+                              {Technique::box_tree, BoxTreeParameters{16, 2 * leaf}}};
+  const bool many_both = static_cast<double>(workload.samples) * static_cast<double>(workload.rays) > 3e9;
+  list.push_back(many_both ? Candidate{Technique::box_tree, BoxTreeParameters{4, leaf}}
+                           : Candidate{Technique::brute_force, BruteForceParameters{}});
+  return list;
 }
 
 /// Moves the samples of each of some parts of space towards a centre, so that they lie in clusters of different density, as
@@ -81,11 +84,17 @@ std::vector<TimedWorkload> timed_workloads() {
     const bool small = one.samples <= 1000 && one.rays <= 1000;
     (small && first.size() < least_workloads ? first : mixed).push_back(one);
   }
-  const std::vector<TimedWorkload> large{
-      {sim::Body::cube, 300'000, 100, 0.004},           {sim::Body::cube, 100, 1'000'000, 0.03},
-      {sim::Body::cube_faces, 1'000'000, 1000, 0.0005}, {sim::Body::cube_faces, 1000, 300'000, 0.01},
-      {sim::Body::cube_faces, 300'000, 10'000, 0.002},  {sim::Body::cube, 1000, 1'000'000, 0.01},
-      {sim::Body::cube, 600'000, 100, 0.001},           {sim::Body::cube_faces, 10'000, 300'000, 0.01}};
+  const std::vector<TimedWorkload> large{{sim::Body::cube_faces, 100'000, 1'000'000, 0.0016},
+                                         {sim::Body::cube_faces, 300'000, 1'000'000, 0.0009},
+                                         {sim::Body::cube_faces, 20'000, 600'000, 0.0035},
+                                         {sim::Body::cube, 300'000, 100, 0.004},
+                                         {sim::Body::cube_faces, 1000, 300'000, 0.01},
+                                         {sim::Body::cube_faces, 1'000'000, 1000, 0.0005},
+                                         {sim::Body::cube, 100, 1'000'000, 0.03},
+                                         {sim::Body::cube_faces, 300'000, 10'000, 0.002},
+                                         {sim::Body::cube, 1000, 1'000'000, 0.01},
+                                         {sim::Body::cube, 600'000, 100, 0.001},
+                                         {sim::Body::cube_faces, 10'000, 300'000, 0.01}};
   constexpr std::size_t apart = 2;
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     if (i % apart == 0 && i / apart < large.size()) first.push_back(large[i / apart]);

@@ -44,6 +44,10 @@ TEST_SUITE("reference value") {
     CHECK(time.build == 0.125);
     CHECK(time.traffic == 3 * 250 * 20);
     CHECK(time.collect == doctest::Approx(3 * (0.01 + 250 * 20 / 1e6)));
+    SharedSearch search = some_search();
+    search.each_ray_seconds = 1.2;
+    CHECK(share_discs(search, 4).search == doctest::Approx(1.2 + 0.8 / 4));
+    CHECK(share_rays(search, 4).search == doctest::Approx(2 * 0.3));
   }
 }
 
@@ -58,6 +62,24 @@ TEST_SUITE("reference value") {
     CHECK(share_rays(search, 100).make == 0);
     search.photon_paths = false;
     CHECK(share_rays(search, 4).make == doctest::Approx(4 * 0.3));
+  }
+}
+
+TEST_SUITE("reference value") {
+  TEST_CASE("what each ray takes: by hand") {
+    using namespace detp;
+    const UnitCosts costs{.cull_test = 2, .disc_test = 1, .cull = 0, .ray = 3, .long_test = 5};
+    Prediction tree{.candidate = {Technique::box_tree, BoxTreeParameters{4, 8}},
+                    .counts = {.loaded = 1e5, .cull_tests = 2e6, .culls = 1e4, .disc_tests = 1e6, .references = 1e3}};
+    const double all = 1e5 * 3 + 2e6 * 2 + 1e6;
+    CHECK(share_of_each_ray(tree, costs, 1e3) == doctest::Approx(1e5 * (3 + 4 * 2) / all));
+    // With blocks of 2¹⁹ rays all tests of the root's children are those of long lists.
+    tree.counts.loaded = 0x1p20;
+    tree.counts.cull_tests = 2e7;
+    tree.counts.references = 1e5;
+    const double longer = 0x1p20 * 3 + 2e7 * 2 + 1e6 + 5 * long_tests(tree.counts);
+    CHECK(share_of_each_ray(tree, costs, 1e5) == doctest::Approx(0x1p20 * (3 + 4 * (2 + 5)) / longer));
+    CHECK(share_of_each_ray({}, {}, 1) == 0);
   }
 }
 

@@ -68,6 +68,31 @@ TEST_SUITE("known answer") {
     CHECK(price({}, costs).total() == 0);
   }
 
+  TEST_CASE(
+      "lists that are longer than a near cache holds: half of the tests, if the block halves its way to the mean list "
+      "there") {
+    constexpr double discs = 100'000;  // blocks of 2¹⁹ rays
+    const Counts<double> counts{.loaded = 1e7, .cull_tests = 0x1p13 * 1e5, .culls = 1e5, .references = discs};
+    CHECK(long_tests(counts) == doctest::Approx(counts.cull_tests * 3 / 6));
+    CHECK(price(counts, {.cull_test = 0, .disc_test = 0, .long_test = 2}).rebuild ==
+          doctest::Approx(counts.cull_tests));
+    CHECK(price(counts, {.cull_test = 0, .long_test = 2}, CostEngine::ray_by_ray).rebuild == 0);
+  }
+
+  TEST_CASE("lists of a near cache have no long tests; lists that are all longer have only long tests") {
+    CHECK(long_tests({.loaded = 0x1p16, .cull_tests = 1e9, .culls = 1e3, .references = 1e5}) == 0);
+    CHECK(long_tests({.loaded = 1e9, .cull_tests = 1e9, .culls = 1e3, .references = 1000}) == 0);  // blocks of 2¹⁵
+    CHECK(long_tests({.loaded = 1e9, .references = 1e5}) == 0);
+    const Counts<double> counts{.loaded = 1e9, .cull_tests = 1e9, .culls = 1e3, .references = 1e5};
+    CHECK(long_tests(counts) == doctest::Approx(counts.cull_tests));
+  }
+
+  TEST_CASE("rays that no cache holds have a cost of their own") {
+    const UnitCosts far{.ray = 3, .far_ray = 5};
+    CHECK(price({.loaded = cached_rays}, far).start == 3 * cached_rays);
+    CHECK(price({.loaded = cached_rays + 10}, far).start == 3 * cached_rays + 80);
+  }
+
   TEST_CASE("techniques that search rays one by one have their own costs of disc tests and placements") {
     for (const TechniqueRecord& record : technique_records) {
       const CostBreakdown time = price({.disc_tests = 10, .placements = 10}, costs, record.technique);

@@ -231,7 +231,8 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
     answer.title = describe_numbers(answer.workload);
     if (options.ranks.ranks)
       answer.ranks = choose_ranks(options.ranks, answer.workload, 1, false, 0, answer.choice.best(),
-                                  search_error(answer), making_time(answer.workload, request.seed, stop));
+                                  search_error(answer), making_time(answer.workload, request.seed, stop),
+                                  costs[answer.choice.best().candidate.technique]);
   } else {
     const ProgressLine progress(common.quiet);
     const double share_of_job = analyze ? 0.3 : 1;  // a guess
@@ -273,9 +274,9 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
       const bool photon_paths = job.field == sim::Field::photons;
       const double photons =
           photon_paths ? static_cast<double>(job.photon_count) / static_cast<double>(job.rays.size()) : 1;
-      answer.ranks =
-          choose_ranks(options.ranks, answer.workload, photons, photon_paths, static_cast<double>(job.triangles),
-                       answer.choice.best(), search_error(answer), making_time(job, stop));
+      answer.ranks = choose_ranks(options.ranks, answer.workload, photons, photon_paths,
+                                  static_cast<double>(job.triangles), answer.choice.best(), search_error(answer),
+                                  making_time(job, stop), costs[answer.choice.best().candidate.technique]);
     }
     answer.warnings = job.warnings;
   }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -12,12 +14,19 @@
 #include "detp/sim/photons/photon_source.hpp"
 #include "detp/sim/rays/ray_source.hpp"
 #include "detp/sim/search/photon_blocks.hpp"
+#include "detp/sim/search/soundness.hpp"
 
 namespace detp::cli {
 namespace {
 
 constexpr int timed_parts = 5;
 constexpr std::size_t rays_of_part = std::size_t{1} << 17;
+
+/// Checks rays as a search does.
+void check(std::span<const sim::Ray> rays, const std::stop_token& stop) {
+  static_cast<void>(
+      sim::check_rays(rays, {0, 0, 0}, std::numeric_limits<double>::max(), 0, sim::StopCheck(stop, "checking rays")));
+}
 
 /// Mean of several times, for so many rays.
 template <class Make>
@@ -58,10 +67,10 @@ MakingTime making_time(const validate::Job& job, const std::stop_token& stop) {
   if (job.rays_from_file)
     throw std::invalid_argument("--ranks predicts rays that are made; give a scene or numbers, not --ray-file");
   return timed(job.given.rays, [&](int part) {
-    return job
-        .more_rays(std::uint64_t{rays_of_part} * static_cast<std::uint64_t>(part), static_cast<std::uint64_t>(part),
-                   rays_of_part, stop)
-        .rays.size();
+    const auto made = job.more_rays(std::uint64_t{rays_of_part} * static_cast<std::uint64_t>(part),
+                                    static_cast<std::uint64_t>(part), rays_of_part, stop);
+    check(made.rays, stop);
+    return made.rays.size();
   });
 }
 
@@ -70,16 +79,18 @@ MakingTime making_time(const Workload& workload, std::uint64_t seed, const std::
   std::vector<sim::Ray> rays(rays_of_part);
   return timed(workload.rays, [&](int part) {
     lines.read(rays_of_part * static_cast<std::uint64_t>(part), rays, stop);
+    check(rays, stop);
     return rays.size();
   });
 }
 
 RanksAnswer choose_ranks(const RanksOptions& options, const Workload& workload, double photons_per_ray,
                          bool photon_paths, double triangles, const Prediction& prediction, double search_error,
-                         const MakingTime& making) {
+                         const MakingTime& making, const UnitCosts& costs) {
   constexpr double triangle_bytes = 200;  // with its vertices and the ray caster's tree
   const CostBreakdown& time = prediction.time;
   const double build = time.order + time.build;
+  const double search_seconds = time.total() - build;
   const auto discs = static_cast<std::size_t>(workload.samples);
   const model::SharedSearch search{
       .rays = workload.rays,
@@ -90,7 +101,8 @@ RanksAnswer choose_ranks(const RanksOptions& options, const Workload& workload, 
       .kept_bytes = sim::PhotonSource::most_kept_bytes(),
       .make_seconds = making.seconds,
       .build_seconds = build,
-      .search_seconds = time.total() - build,
+      .search_seconds = search_seconds,
+      .each_ray_seconds = search_seconds * model::share_of_each_ray(prediction, costs, workload.samples),
       .scene_bytes = triangles * triangle_bytes};
   RanksAnswer answer{.ranks = *options.ranks,
                      .network = {.bytes_per_second = options.bytes_per_second},

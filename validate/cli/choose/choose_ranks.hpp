@@ -17,7 +17,7 @@ struct RanksOptions {
   double bytes_per_second = model::Network{}.bytes_per_second;
 };
 
-/// The time for making all rays, from some of them.
+/// The time for making all rays and checking them, from some of them.
 struct MakingTime {
   double seconds = 0;
   double error = 0;  ///< standard error
@@ -43,10 +43,10 @@ struct RanksAnswer {
   [[nodiscard]] const model::SharedTime& best() const { return by_rays ? rays : discs; }
 };
 
-/// `search_error`: of the predicted seconds. Chooses the faster of those that fit in memory.
+/// `search_error`: of the predicted seconds. `costs`: of the predicted technique. Chooses the faster of those that fit in memory.
 [[nodiscard]] RanksAnswer choose_ranks(const RanksOptions& options, const Workload& workload, double photons_per_ray,
                                        bool photon_paths, double triangles, const Prediction& prediction,
-                                       double search_error, const MakingTime& making);
+                                       double search_error, const MakingTime& making, const UnitCosts& costs);
 
 [[nodiscard]] Json to_json(const RanksAnswer& answer);
 [[nodiscard]] std::string ranks_line(const RanksAnswer& answer);
