@@ -1,6 +1,9 @@
 #include "memory.hpp"
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -129,6 +132,12 @@ double parse_bytes(std::string_view text) {
 
 double grown_bytes(std::size_t count, std::size_t element) {
   return count == 0 ? 0 : static_cast<double>(std::bit_ceil(count)) * static_cast<double>(element);
+}
+
+void return_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 void require_memory(std::string_view what, double bytes) {

@@ -33,6 +33,9 @@ void require_memory(std::string_view what, double bytes);
 /// peak, the elements are copied and the old array still exists.
 [[nodiscard]] double grown_bytes(std::size_t count, std::size_t element);
 
+/// Returns to the system what was freed, but is kept by the C library for later; takes some milliseconds. Does nothing unless that is glibc.
+void return_freed_memory();
+
 /// The smallest limit of the process's own memory cgroup and of the groups around it; infinite if no limit is set.
 /// `own_groups` is text in the format of /proc/self/cgroup; the groups' files are under `root` (/sys/fs/cgroup).
 [[nodiscard]] double cgroup_limit(const std::string& own_groups, const std::string& root);
