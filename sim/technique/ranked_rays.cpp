@@ -52,13 +52,13 @@ class OwnRanges {
 
   /// All but the head.
   void search_rest(const std::vector<ShareOfRays>& ranges) {
-    FoundInRange& head = found_.front();
-    const auto longer = std::ranges::find(ranges, head.range.block, &ShareOfRays::block);
-    if (longer != ranges.end() && longer->next_block > head.range.next_block)
-      search(head, {head.range.last, longer->last, head.range.next_block, longer->next_block});
+    const ShareOfRays head = found_.front().range;
+    const auto longer = std::ranges::find(ranges, head.block, &ShareOfRays::block);
+    if (longer != ranges.end() && longer->next_block > head.next_block)
+      search(found_.front(), {head.last, longer->last, head.next_block, longer->next_block});
     end();
     for (const ShareOfRays& range : ranges) {
-      if (range.block == head.range.block) continue;
+      if (range.block == head.block) continue;
       begin(range);
       search(found_.back(), range);
       end();
