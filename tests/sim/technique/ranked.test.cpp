@@ -289,7 +289,7 @@ TEST_SUITE("ranks") {
       StreamedOutcome found;
       std::vector<std::uint64_t> loaded(3);
       const auto thrown = on_ranks(3, [&](Ranks& ranks) {
-        const UnequalLines lines(sphere, count, ranks.rank() == slow ? 0.1 : 0.02);
+        const UnequalLines lines(sphere, count, ranks.rank() == slow ? 0.15 : 0.02);
         RankedOutcome own = run_on_ranks(discs, lines, techniques[0], options_of(true), ranks);
         loaded[static_cast<std::size_t>(ranks.rank())] = lines.made();
         if (ranks.rank() == 0) found = std::move(own.found);
