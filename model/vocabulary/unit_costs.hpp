@@ -33,7 +33,7 @@ struct UnitCosts {
   double ends = 0;        ///< e: what the ends of rays add to a test against a sphere, a box or a disc
   double far = 0;         ///< m: handling one disc, for each doubling of their number above near_discs
   double uncached = 0;    ///< o: sorting or placing one disc, for each doubling of their number above cached_discs
-  double long_test = 0;   ///< x: what a list that no near cache holds adds to a test of one of its rays
+  double long_test = 0;   ///< f: what a list that no near cache holds adds to a test of one of its rays
   double far_ray = 0;     ///< y: what a ray that no cache holds adds to bringing it into a search
   double start = 0;       ///< a: fixed cost of a run
 
@@ -154,7 +154,7 @@ inline constexpr std::array unit_cost_terms{
                  "handling a disc, for each doubling of the number of discs above 10 000"},
     UnitCostTerm{"o", &UnitCosts::uncached, uncached_discs, CostEngine::both, &CostBreakdown::build,
                  "sorting or placing a disc, for each doubling of the number of discs above 120 000"},
-    UnitCostTerm{"x", &UnitCosts::long_test, long_tests, CostEngine::lists, &CostBreakdown::rebuild,
+    UnitCostTerm{"f", &UnitCosts::long_test, long_tests, CostEngine::lists, &CostBreakdown::rebuild,
                  "what a list of more than 65 536 rays adds to a test"},
     UnitCostTerm{"y", &UnitCosts::far_ray, far_rays, CostEngine::both, &CostBreakdown::start,
                  "what each ray beyond 131 072 adds to bringing it into a search"},

@@ -8,7 +8,7 @@ namespace {
 /// Costs in nanoseconds by symbol, as `detp calibrate` prints them. Costs that are not named are 0.
 struct Nanoseconds {
   double t = 0, u = 0, w = 0, v = 0, n = 0, c = 0, b = 0, p = 0, g = 0, s = 0, r = 0, l = 0, h = 0, i = 0, e = 0, m = 0,
-         o = 0, x = 0, y = 0, a = 0;
+         o = 0, f = 0, y = 0, a = 0;
 
   [[nodiscard]] UnitCosts seconds() const {
     constexpr double nano = 1e-9;
@@ -29,7 +29,7 @@ struct Nanoseconds {
             .ends = nano * e,
             .far = nano * m,
             .uncached = nano * o,
-            .long_test = nano * x,
+            .long_test = nano * f,
             .far_ray = nano * y,
             .start = nano * a};
   }
@@ -42,7 +42,7 @@ struct BuiltIn {
 };
 
 // Unit costs: one fit to the runs of four calibrations of 60 s with different seeds, on a machine with two cores; but o was
-// measured on another machine, and scaled as p. x and y lie between those of two machines (Zen 3 with AVX2, Emerald Rapids with
+// measured on another machine, and scaled as p. f and y lie between those of two machines (Zen 3 with AVX2, Emerald Rapids with
 // AVX-512), scaled as t and i. The simd engine of techniques that trace rays one by one: those of the plain engine times the
 // ratio of both engines' costs in one run of detp calibrate --seconds 60 on an AMD EPYC (Zen 3, AVX2). Costs of threads: from
 // earlier single runs of detp calibrate; those of more than two threads are extrapolated.
@@ -60,7 +60,7 @@ constexpr BuiltIn of_simd[] = {
       .i = 7.92,
       .e = 0.347,
       .m = 238,
-      .x = 1,
+      .f = 1,
       .y = 11},
      {.serial_preparing = 1, .serial_search = 0, .start = 3.31e-06}},
     {Technique::cell_spheres,
@@ -72,7 +72,7 @@ constexpr BuiltIn of_simd[] = {
       .i = 5.61,
       .e = 0.205,
       .m = 24.6,
-      .x = 1,
+      .f = 1,
       .y = 11,
       .a = 5.2e+03},
      {.serial_preparing = 1, .serial_search = 0, .start = 3.76e-06}},
@@ -88,7 +88,7 @@ constexpr BuiltIn of_simd[] = {
       .e = 0.231,
       .m = 11.2,
       .o = 18.5,
-      .x = 1,
+      .f = 1,
       .y = 11,
       .a = 1.21e+04},
      {.serial_preparing = 0.333, .serial_search = 0.29, .start = 8.82e-05}},
