@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "agreed.hpp"
@@ -10,8 +8,6 @@
 #include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "detp/sim/files/output_file.hpp"
-#include "detp/sim/files/writing_check.hpp"
 #include "detp/validate/base/search_work.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/cli/command.hpp"
@@ -23,6 +19,7 @@
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
 #include "detp/validate/stopping/job_batches.hpp"
+#include "hit_files.hpp"
 #include "run_report.hpp"
 #include "run_until.hpp"
 #include "timed_run.hpp"
@@ -126,47 +123,6 @@ sim::EstimateRequest request_of(const RunAnswer& answer, const validate::Job& jo
     request.nearest_form = map->form;
   }
   return request;
-}
-
-/// `order`: numbers of the rays in their file; empty if they have the file's order.
-void write_pairs(const std::string& path, const TimedRun& run, const std::vector<std::uint32_t>& order,
-                 const std::stop_token& stop) {
-  std::vector<sim::Pair> pairs;
-  if (!order.empty()) {
-    pairs = run.outcome.pairs;
-    for (sim::Pair& pair : pairs) pair.ray = order[pair.ray];
-    std::ranges::sort(pairs);
-  }
-  const std::vector<sim::Pair>& sorted = order.empty() ? run.outcome.pairs : pairs;
-  sim::WritingCheck check(path, run.results ? run.results->pairs() : sorted.size(), "pairs", stop);
-  sim::OutputFile file(path);
-  file.write("ray,disc\n");
-  const auto write = [&](const sim::Pair& pair) {
-    check.next();
-    file.write(fmt::format("{},{}\n", pair.ray, pair.disc));
-  };
-  if (run.results)
-    run.results->for_each_pair(write);
-  else
-    std::ranges::for_each(sorted, write);
-  file.commit();
-}
-
-void write_per_disc(const std::string& path, const TimedRun& run, const std::stop_token& stop) {
-  const bool errors = run.results ? run.results->errors() : !run.outcome.standard_error.empty();
-  sim::WritingCheck check(path, disc_count(run), "discs", stop);
-  sim::OutputFile file(path);
-  file.write(errors ? "disc,hits,irradiance,standard_error,upper_bound\n" : "disc,hits,irradiance\n");
-  std::uint64_t disc = 0;
-  for_each_disc(run, [&](const sim::DiscResult& found) {
-    check.next();
-    const std::string error = !errors                               ? ""
-                              : std::isfinite(found.standard_error) ? fmt::format(",{},", found.standard_error)
-                              : std::isfinite(found.upper_bound)    ? fmt::format(",,{}", found.upper_bound)
-                                                                    : ",,";  // no surface near the sample
-    file.write(fmt::format("{},{},{}{}\n", disc++, found.hits, found.irradiance, error));
-  });
-  file.commit();
 }
 
 void check_options(const RunOptions& options, std::size_t rows) {
