@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "counts.hpp"
-#include "engine.hpp"
+#include "ray_blocks.hpp"
 #include "technique.hpp"
 
 namespace detp {
@@ -97,12 +97,11 @@ inline constexpr double near_rays = 0x1p16;
 /// Up to about this many rays stay in the last-level cache from their making to their search.
 inline constexpr double cached_rays = 0x1p17;
 
-/// The tests of rays in lists of more than near_rays rays: the share of all tests by which lists shrink from a block of rays to
-/// near_rays, on a logarithmic scale that ends at the mean list. Every level of a hierarchy makes about as many tests.
+/// The number of tests of rays in lists of more than near_rays rays. Derived from other counts: each level of a hierarchy makes about as many
+/// tests, and lists shrink by about the same factor from level to level, from a block of rays to the mean list.
 [[nodiscard]] inline double long_tests(const Counts<double>& counts) {
-  constexpr double many = 1e9;  // more discs make no difference
-  const double discs = std::min(many, std::max({counts.placements, counts.sorted, counts.references}));
-  const double block = std::min(counts.loaded, static_cast<double>(rays_in_block(static_cast<std::size_t>(discs))));
+  const double discs = std::max({counts.placements, counts.sorted, counts.references});
+  const double block = ray_blocks(counts.loaded, discs, Engine::simd).size;
   if (!(block > near_rays && counts.culls > 0)) return 0;
   const double mean = std::clamp(counts.cull_tests / counts.culls, 1.0, near_rays);
   return counts.cull_tests * std::log(block / near_rays) / std::log(block / mean);

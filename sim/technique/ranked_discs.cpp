@@ -64,7 +64,7 @@ class DiscShare {
         own.run.progress = [&](double share) { options_.run.progress((before + share) / all); };
       search_part(own);
       part_.reset();
-      return_freed_memory();  // or blocks of other sizes would be taken beside those of earlier parts
+      return_freed_memory();  // the arrays of the next part have other sizes, and would be allocated beside the freed ones
     }
   }
 

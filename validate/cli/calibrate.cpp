@@ -14,7 +14,7 @@ namespace detp::cli {
 namespace {
 
 struct CalibrateOptions {
-  double seconds = 25;
+  double seconds = validate::CalibrationOptions{}.seconds;
   InstructionSetOption instruction_set;
 };
 
