@@ -3,6 +3,7 @@
 import re
 import sys
 from pathlib import Path
+from typing import Any
 
 import cffi
 
@@ -31,7 +32,8 @@ def main() -> None:
     header, folder = map(Path, sys.argv[1:])
     ffi = cffi.FFI()
     ffi.cdef(declarations(header.read_text(encoding="utf-8")))
-    ffi.set_source("detp._declarations", None)  # type: ignore[arg-type]  # no C source: declarations alone
+    no_source: Any = None  # declarations alone; only some versions of the types of cffi allow None
+    ffi.set_source("detp._declarations", no_source)
     ffi.emit_python_code(str(folder / "_declarations.py"))
 
 
