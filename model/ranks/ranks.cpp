@@ -30,7 +30,7 @@ double levels_of(double blocks) { return std::max(1.0, std::ceil(std::log2(block
 double block_of_rays(const SharedSearch& search) {
   constexpr double many = 1e9;  // more discs make no difference
   const auto discs = static_cast<std::size_t>(std::min(search.discs, many));
-  const double block = std::max(0x1p20, static_cast<double>(rays_in_block(discs)));
+  const double block = std::max(0x1p18, static_cast<double>(rays_in_block(discs)));
   return ray_bytes * std::min(search.rays, block);
 }
 

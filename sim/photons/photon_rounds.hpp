@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -35,13 +36,14 @@ class PhotonRounds {
 
  private:
   static constexpr std::uint64_t least_in_a_round = 256;
-  static constexpr std::uint64_t most_in_first_round = 1ULL << 16;
+  static constexpr std::uint64_t most_in_first_round = 1ULL << 14;
 
   [[nodiscard]] std::uint64_t photons_needed(std::uint64_t found) const {
     const std::uint64_t missing = pieces_ - found;
     if (traced_ == 0) return std::clamp<std::uint64_t>(missing / 4, least_in_a_round, most_in_first_round);
     const double each = static_cast<double>(found) / static_cast<double>(traced_);
-    const double more = each > 0 ? 1.02 * static_cast<double>(missing) / each : 2.0 * static_cast<double>(traced_);
+    const double in_vain = 1 + 2 / std::sqrt(static_cast<double>(traced_));  // so that a further round is rarely needed
+    const double more = each > 0 ? in_vain * static_cast<double>(missing) / each : 2.0 * static_cast<double>(traced_);
     const auto most = static_cast<double>(std::min(most_in_a_round_, limit_));
     return std::max(least_in_a_round, static_cast<std::uint64_t>(std::min(more, most)));
   }

@@ -69,19 +69,23 @@ void PhotonSource::count_rays(std::uint64_t groups, Ranks& ranks, const std::sto
   };
   const std::uint64_t known = starts_.size() - 1;
   if (groups <= known) return;
-  std::vector<Group> found(groups - known);
+  // If few are known, each rank traces, and keeps, the groups that it is likely to search: its part of all.
+  constexpr std::uint64_t few = 16;
+  const std::uint64_t skipped = few * known * static_cast<std::uint64_t>(ranks.count()) <= groups ? known : 0;
+  const std::uint64_t start = known - skipped;
+  std::vector<Group> found(groups - start);
   kept_.resize(groups);
   const auto [first, last] = part_of(found.size(), ranks);
-  do_on_all(ranks, [&, begin = first, end = last] {
+  do_on_all(ranks, [&, begin = std::max(first, skipped), end = last] {
     sim::parallel_for(begin, end, [&](std::size_t i) {
-      const PhotonPieces pieces = trace_group(known + i, stop);
+      const PhotonPieces pieces = trace_group(start + i, stop);
       found[i].rays = pieces.rays.size();
       for (const Ray& ray : pieces.rays) found[i].origins.include(ray.origin);
-      kept_[known + i] = keep(pieces);
+      kept_[start + i] = keep(pieces);
     });
   });
   share_parts(ranks, std::span(found));
-  for (const Group& group : found) {
+  for (const Group& group : std::span(found).subspan(skipped)) {
     starts_.push_back(starts_.back() + group.rays);
     if (group.rays == 0) continue;
     origins_.include(group.origins.low);

@@ -119,9 +119,11 @@ std::size_t default_block(std::size_t discs) {
 
 std::size_t block_in_memory(std::size_t discs) {
   constexpr std::size_t least = std::size_t{1} << 15;
+  constexpr std::size_t for_few_discs = std::size_t{1} << 18;
   constexpr double rays_in_most = 1e12;
   const double rays = std::min(memory_budget() / (8 * sizeof(Ray)), rays_in_most);
-  return std::min(default_block(discs), std::max(least, std::bit_floor(static_cast<std::size_t>(rays))));
+  const std::size_t block = std::max(for_few_discs, rays_in_block(discs));
+  return std::min(block, std::max(least, std::bit_floor(static_cast<std::size_t>(rays))));
 }
 
 StreamedOutcome run_streamed(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,

@@ -30,14 +30,13 @@ struct StreamedOutcome {
   double bytes = 0;          ///< predicted peak memory, including discs, a block of rays and the pairs found
 };
 
-/// Default number of rays in a block: four for each disc, as rays_in_block, but at least 2²⁰ (64 MiB) and at most 2²⁴ (1 GiB).
-///
-/// Techniques that cull lists visit all discs once for each block, which pays off only if the block has about as many
-/// rays as there are discs. The processor's caches do not matter: techniques that trace rays one by one process a block
-/// in chunks of 64 rays, and a grid (10⁶ discs) takes the same time for blocks of 2¹⁶ and of 10⁶ rays.
+/// Number of rays that are worth keeping in memory; more are a stream by default: four for each disc, as rays_in_block,
+/// but at least 2²⁰ (64 MiB) and at most 2²⁴ (1 GiB).
 [[nodiscard]] std::size_t default_block(std::size_t discs);
 
-/// The same, or fewer rays so that they take an eighth of the memory budget, but at least 2¹⁵.
+/// Number of rays of a stream that are in memory at a time: rays_in_block, at least 2¹⁸ (16 MiB), but no more than fit an
+/// eighth of the memory budget (and then at least 2¹⁵). Techniques that cull lists visit all discs once for each block, so
+/// that smaller ones cost time. Larger ones cost time when their memory is first written.
 [[nodiscard]] std::size_t block_in_memory(std::size_t discs);
 
 /// Runs a candidate over any number of rays. The result is that of `run`, bit for bit (hits, irradiance, pairs), for

@@ -33,6 +33,9 @@ for technique in box-tree octree sphere-cache grid; do
   one discs-$technique @cornell --samples 2000 --rays 1100000 --standard-error --technique $technique
   same 2 discs-$technique @cornell --samples 2000 --rays 1100000 --standard-error --technique $technique --share discs
 done
+one some-rays @cornell --samples 500 --rays 150000 --standard-error
+for count in 2 7; do same $count some-rays @cornell --samples 500 --rays 150000 --standard-error; done
+on 2 run @cornell --rays 150000 | grep -q '^ranks *2 processes share the rays' || fail '150 000 rays are not shared'
 one few-rays @cornell --samples 500 --rays 20000
 same 2 few-rays @cornell --samples 500 --rays 20000
 

@@ -1,7 +1,9 @@
 #include "mpi_world.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 
 #include "detp/sim/base/threads.hpp"
@@ -33,9 +35,18 @@ class MpiWorld final : public World {
 
  private:
   static void initialize() {
+    use_no_network_on_one_machine();
     int provided = 0;
     if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS)
       throw std::runtime_error("MPI cannot be initialized");
+  }
+
+  /// Open MPI looks at network cards that match messages (its component cm) for 0.2 s. Between the processes of one
+  /// machine it can do without them. What the user has set stays.
+  static void use_no_network_on_one_machine() {
+    const char* const all = std::getenv("OMPI_COMM_WORLD_SIZE");
+    const char* const here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+    if (all != nullptr && here != nullptr && std::string_view(all) == here) setenv("OMPI_MCA_pml", "^cm", 0);
   }
 
   sim::MpiRanks ranks_;

@@ -45,6 +45,7 @@ void print(const std::string& text, const std::optional<std::string>& output) {
 void set_memory_limit(const std::string& size) {
   try {
     sim::set_memory_limit(sim::parse_bytes(size));
+    sim::return_arrays_at_once();
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("--memory-limit {}", error.what()));
   }

@@ -9,6 +9,22 @@
 #include "detp/sim/technique/streamed.hpp"
 
 namespace detp::validate {
+namespace {
+
+constexpr std::uint64_t pieces_of_file = 64;  // its rays may have an order
+
+/// Fills the block with rays from so many places of the stream.
+void read_evenly(const sim::RaySource& stream, std::uint64_t pieces, std::span<sim::Ray> block,
+                 const std::stop_token& stop) {
+  for (std::uint64_t piece = 0; piece < pieces; ++piece) {
+    const std::uint64_t first = block.size() * piece / pieces;
+    const std::uint64_t last = block.size() * (piece + 1) / pieces;
+    const std::uint64_t from = (stream.size() - block.size()) / pieces * piece + first;
+    stream.read(from, block.subspan(first, last - first), stop);
+  }
+}
+
+}  // namespace
 
 std::unique_ptr<const sim::RaySource> Job::field_rays(std::uint64_t count, const std::stop_token& stop) const {
   const sim::Sphere sphere = stored_discs ? stored_summary.enclosing : sim::enclosing_sphere(discs, stop);
@@ -48,8 +64,8 @@ void Job::measure() const {
   std::vector<sim::Ray> block;
   std::optional<sim::Problem> of_block;
   if (stream) {
-    block.resize(static_cast<std::size_t>(std::min<std::uint64_t>(sim::block_in_memory(discs.size()), stream->size())));
-    stream->read(0, block, measuring.stop);
+    block.resize(static_cast<std::size_t>(std::min(rays_of_workload, stream->size())));
+    read_evenly(*stream, rays_from_file ? pieces_of_file : 1, block, measuring.stop);
     of_block = sim::make_problem(block, discs, front_facing, measuring.threads, measuring.stop);
   }
   sim::Observed found =

@@ -36,6 +36,9 @@ struct Length {
 
 inline constexpr double rays_by_default = 100'000;
 
+/// Number of rays of a stream on which its workload is measured. The evidence for effects looks at some of them (EvidenceEffort).
+inline constexpr std::uint64_t rays_of_workload = std::uint64_t{1} << 16;
+
 /// The user's request. Values that are not set get the default below; the job has all values.
 struct JobRequest {
   std::optional<std::string> scene;      ///< built-in name or mesh file
@@ -59,9 +62,10 @@ struct JobRequest {
   sim::EffectSelection effects;  ///< that the workload has, and that photon paths are made with
   std::uint64_t seed = 1;
   /// True if only the workload is needed. If there are more rays than a block (sim::default_block), then only the first
-  /// block of rays is made, and the workload is measured on this block. Has no effect on rays from a file.
+  /// rays_of_workload are made, and the workload is measured on these. Has no effect on rays from a file.
   bool workload_only = false;
-  /// if the rays are not from a file, and fill more than a block or do not fit in memory beside the discs and an index, do not keep them in memory
+  /// if the rays are not from a file, and fill more than a block, do not fit in memory beside the discs and an index, or are
+  /// shared by ranks (more than rays_of_workload), do not keep them in memory
   bool stream = false;
   /// discs of a file that do not fit in memory stay there if they can be read in any order, and the rays are a stream
   bool store_discs = false;
@@ -90,7 +94,7 @@ struct Measuring {
   sim::EvidenceEffort effort = {};
   std::optional<double> dimension = {};  ///< instead of the measured one
   std::optional<double> sample_extent = {};
-  int threads = 1;  ///< for checking the first block of a stream
+  int threads = 1;  ///< for checking the first rays of a stream
   std::stop_token stop = {};
 };
 
@@ -139,7 +143,7 @@ struct Job {
   /// photon paths without keep_scene; sim::Stopped on a stop request.
   [[nodiscard]] sim::Paths more_rays(std::uint64_t made, std::uint64_t batch, std::size_t rays,
                                      const std::stop_token& stop = {}) const;
-  /// Measured on discs and rays (of a stream on its first block) when it is first asked for; not for use from several threads. Throws
+  /// Measured on discs and rays (of a stream on rays_of_workload: its first, or pieces of a whole file) when it is first asked for; not for use from several threads. Throws
   /// as sim::observe, sim::Stopped on the stop request of `measuring`, and std::invalid_argument as check(Workload).
   [[nodiscard]] const Workload& workload() const;
   /// The effects, and what finding them cost; as workload().
@@ -159,7 +163,7 @@ struct Job {
   void measure() const;
 
   std::optional<sim::Problem> problem_;
-  mutable std::optional<sim::Observed> observed_;  ///< of the first block
+  mutable std::optional<sim::Observed> observed_;  ///< of all rays, or of some of a stream
   mutable Workload workload_;
 };
 

@@ -174,6 +174,10 @@ class JobMaker {
     job_.discs = discs_at(scene_->samples, radius, stop_);
   }
 
+  [[nodiscard]] bool are_shared(double rays) const {
+    return request_.ranks != nullptr && request_.ranks->count() > 1 && rays > static_cast<double>(rays_of_workload);
+  }
+
   void make_rays() {
     if (request_.ray_file) {
       refuse_lights("rays from a file");
@@ -200,8 +204,9 @@ class JobMaker {
     if (job_.field != sim::Field::photons)
       refuse_lights(job_.field == sim::Field::mixed ? "a mixed field" : "isotropic lines");
     const auto block = static_cast<double>(sim::default_block(job_.disc_count()));
-    const bool stream = job_.stored_discs || (request_.stream && (rays > block || all_are_large(rays)));
-    const double made = request_.workload_only ? std::min(rays, block) : rays;
+    const bool stream =
+        job_.stored_discs || (request_.stream && (rays > block || are_shared(rays) || all_are_large(rays)));
+    const double made = request_.workload_only && rays > block ? std::min<double>(rays, rays_of_workload) : rays;
     progress_.make_rays(job_.field, made, stream, job_.disc_count());
     if (stream) return make_stream(static_cast<std::uint64_t>(rays));
     const bool paths = job_.field == sim::Field::photons;
@@ -218,9 +223,11 @@ class JobMaker {
   /// Its rays fill more than a block, and memory too much, or ranks share them.
   [[nodiscard]] bool is_large(const std::string& path) const {
     const auto table = sim::TableFile::open(path, sim::ray_columns());
-    if (!table || table->rows() <= sim::default_block(job_.disc_count())) return false;
+    if (!table) return false;
+    const auto rays = static_cast<double>(table->rows());
+    if (are_shared(rays)) return true;
     constexpr double bytes = sizeof(sim::Ray) + sizeof(std::uint64_t) + sizeof(double);
-    return request_.ranks != nullptr || bytes * static_cast<double>(table->rows()) > sim::memory_budget() / 2;
+    return table->rows() > sim::default_block(job_.disc_count()) && bytes * rays > sim::memory_budget() / 2;
   }
 
   void keep(sim::Paths paths) {

@@ -8,6 +8,7 @@
 
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
+#include "support/memory_limit.hpp"
 
 using namespace detp;
 using namespace detp::sim;
@@ -153,11 +154,19 @@ TEST_SUITE("known answer") {
     CHECK(streamed.outcome.total_hits == half.total_hits);
   }
 
-  TEST_CASE("a block has four rays for each disc, from 2^20 to 2^24") {
+  TEST_CASE("a stream has more than four rays for each disc, at least 2^20, at most 2^24") {
     CHECK(default_block(1) == 1U << 20);
     CHECK(default_block(1U << 19) == 1U << 21);
     CHECK(default_block(3'000'000) == 1U << 24);
     CHECK(default_block(100'000'000) == 1U << 24);
+  }
+
+  TEST_CASE("a stream has 2^18 rays in memory, more with many discs, fewer with little memory") {
+    CHECK(block_in_memory(1) == 1U << 18);
+    CHECK(block_in_memory(1U << 19) == 1U << 21);
+    const support::MemoryLimit limit(64.0 * (1 << 20));
+    CHECK(block_in_memory(1) == 1U << 17);
+    CHECK(block_in_memory(1U << 19) == 1U << 17);
   }
 }
 

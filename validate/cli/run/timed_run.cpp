@@ -32,7 +32,7 @@ TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, 
   const bool pairs = record_of(request.estimator).finds_pairs;
   const std::string doing(pairs ? name(candidate.technique) : name(request.estimator));
   const double work = progress && pairs ? predicted_work(job.given, candidate, options.engine) : 0;
-  const double block = job.stream ? static_cast<double>(sim::default_block(job.disc_count())) : job.given.rays;
+  const double block = job.stream ? static_cast<double>(sim::block_in_memory(job.disc_count())) : job.given.rays;
   const double each = std::min(1.0, block / job.given.rays);  // a block's share of the rays
   const auto show = [&](double done) {
     if (progress) progress({doing, done, std::min(1.0, done + each), each * work});

@@ -359,7 +359,7 @@ TEST_SUITE("end to end") {
             doctest::test_suite("long")) {
     const Written written = run_and_read(words("run --samples 3 --disc-radius 0.3 --scene-side 2 --rays 1200000"),
                                          "--technique grid --cells 2");
-    CHECK(written.json.at("rays_in_memory") == 1 << 20);
+    CHECK(written.json.at("rays_in_memory") == 1 << 18);
     CHECK(written.json.at("inputs").at("rays") == 1.2e6);
     const std::vector<std::string> pairs = rows_of(written.pairs);
     CHECK(pairs.size() == written.hits);
