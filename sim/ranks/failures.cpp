@@ -45,9 +45,20 @@ Report receive_report(Ranks& ranks, std::string& message, int from) {
 
 }  // namespace
 
+bool is_stop(const std::exception_ptr& thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const Stopped&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
 void agree(Ranks& ranks, const std::exception_ptr& failed) {
   std::string message;
   Report first = report_of(failed, ranks.rank(), message);
+  const bool own = first.end == End::failed;
   if (ranks.rank() == 0) {
     for (int from = 1; from < ranks.count(); ++from) {
       std::string theirs;
@@ -61,8 +72,9 @@ void agree(Ranks& ranks, const std::exception_ptr& failed) {
     send_report(ranks, first, message, 0);
     first = receive_report(ranks, message, 0);
   }
-  if (failed) std::rethrow_exception(failed);
+  if (own) std::rethrow_exception(failed);
   if (first.end == End::failed) throw RankFailed(first.rank, message);
+  if (failed) std::rethrow_exception(failed);
   if (first.end == End::stopped) throw Stopped(message);
 }
 

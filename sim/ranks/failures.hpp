@@ -22,9 +22,12 @@ class RankSilent final : public RankFailed {
   explicit RankSilent(int rank) : RankFailed(rank, "does not answer; it may have died") {}
 };
 
-/// Every rank tells whether it failed, and hears of the others. Returns on all ranks if none failed. Else throws on all: `failed`
-/// where it is set, on the other ranks RankFailed of the first that failed, or Stopped if none failed but some were stopped.
+/// Every rank tells whether it failed, and hears of the others. Returns on all ranks if none failed. Else throws on all: what failed where
+/// it did, on the other ranks RankFailed of the first that failed, or Stopped if none failed but some were stopped.
 void agree(Ranks& ranks, const std::exception_ptr& failed);
+
+/// Whether it is Stopped.
+[[nodiscard]] bool is_stop(const std::exception_ptr& thrown);
 
 /// Calls work(), which must not talk with other ranks, on this rank; then agrees.
 template <class Work>
@@ -34,6 +37,7 @@ void do_on_all(Ranks& ranks, const Work& work) {
     work();
   } catch (...) {
     failed = std::current_exception();
+    if (!is_stop(failed)) ranks.alert();
   }
   agree(ranks, failed);
 }

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <map>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "failures.hpp"
 
@@ -20,9 +22,11 @@ namespace detp::sim {
 class MpiRanks final : public Ranks {
  public:
   /// The communicator must outlive the object; use one for it alone (MPI_Comm_dup). After a stop request, another rank that is silent
-  /// for so many seconds is given up: RankSilent.
-  explicit MpiRanks(MPI_Comm communicator, std::stop_token stop = {}, double patience = 0.5)
-      : communicator_(communicator), stop_(std::move(stop)), patience_(patience) {
+  /// for so many seconds is given up: RankSilent. `alert`: requests a stop on the other ranks, if the program has means to do so while they
+  /// are at work.
+  explicit MpiRanks(MPI_Comm communicator, std::stop_token stop = {}, std::function<void()> alert = {},
+                    double patience = 0.5)
+      : communicator_(communicator), stop_(std::move(stop)), alert_(std::move(alert)), patience_(patience) {
     check(MPI_Comm_set_errhandler(communicator_, MPI_ERRORS_RETURN));
     check(MPI_Comm_rank(communicator_, &rank_));
     check(MPI_Comm_size(communicator_, &count_));
@@ -30,6 +34,10 @@ class MpiRanks final : public Ranks {
 
   [[nodiscard]] int rank() const override { return rank_; }
   [[nodiscard]] int count() const override { return count_; }
+
+  void alert() override {
+    if (alert_) alert_();
+  }
 
   void send(std::span<const std::byte> bytes, int to) override {
     for (; !bytes.empty(); bytes = bytes.subspan(size_of_next(bytes.size()))) {
@@ -150,6 +158,7 @@ class MpiRanks final : public Ranks {
 
   MPI_Comm communicator_;
   std::stop_token stop_;
+  std::function<void()> alert_;
   double patience_;
   std::map<int, std::optional<std::string>> messages_;  ///< the last of each rank
   int rank_ = 0;

@@ -21,6 +21,9 @@ class Ranks {
   /// Waits for so many bytes.
   virtual void receive(std::span<std::byte> bytes, int from) = 0;
 
+  /// This rank failed: the others may stop what they do. They hear of the failure itself later.
+  virtual void alert() {}
+
   template <class T>
   void send_all(std::span<const T> values, int to) {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -3,6 +3,7 @@
 set -euo pipefail
 mpirun=$1
 detp=$2
+source "$(dirname "$0")/ranks_of.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -68,5 +69,19 @@ told() {
 told 2 'nothing.ply: cannot be opened' run nothing.ply
 told 2 'detp choose works on one process' choose @cornell
 told 2 'there is no technique "kd-tree"' run @cornell --technique kd-tree
+
+# One rank that is stopped stops all, at once.
+"$mpirun" --oversubscribe -n 2 "$detp" run @cornell --rays 1e9 --technique box-tree --threads 1 > out 2> errors &
+launcher=$!
+until mapfile -t ranks < <(ranks_of $launcher) && [ ${#ranks[@]} = 2 ]; do kill -0 $launcher || break; sleep 0.05; done
+sleep 1
+kill -TERM "${ranks[1]}"
+begin=$(date +%s%3N)
+code=0
+wait $launcher || code=$?
+taken=$(($(date +%s%3N) - begin))
+if [ $code != 3 ] || [ $taken -gt 5000 ] || ! grep -q stopped out errors; then
+  fail "one rank stopped: code $code after $taken ms: $(cat out errors)"
+fi
 
 [ $failures = 0 ]

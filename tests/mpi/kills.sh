@@ -6,6 +6,7 @@ mpirun=$1
 detp=$2
 kills=$3
 RANDOM=${4:-1}
+source "$(dirname "$0")/ranks_of.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -20,13 +21,6 @@ until='run @cornell --samples 1000 --disc-radius 3% --target-noise 2.5% --thread
 kill=none
 "$detp" $whole whole.csv > /dev/null 2>&1
 "$detp" $until until.csv > /dev/null 2>&1
-
-# The processes of detp whose launcher is $1; those that have ended are not counted.
-ranks_of() {
-  for status in /proc/[0-9]*/status; do
-    awk -v parent="$1" '/^Name:/ { name = $2 } /^State:/ { state = $2 } /^Pid:/ { pid = $2 } /^PPid:/ { if ($2 == parent && name == "detp" && state != "Z") print pid }' "$status" 2> /dev/null || true
-  done
-}
 
 # One of the ranks has not ended.
 goes_on() {

@@ -16,6 +16,9 @@ class Interruption {
  public:
   Interruption();
 
+  /// As a first signal; from any thread.
+  void stop() { request(false); }
+
   /// Sets the time limit, in seconds since construction. 0 or less means no limit.
   void limit(double seconds);
 

@@ -2,19 +2,23 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
 
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/ranks/mpi_ranks.hpp"
+#include "mpi_bell.hpp"
 
 namespace detp::cli {
 namespace {
 
 class MpiWorld final : public World {
  public:
-  explicit MpiWorld(const std::stop_token& by_signal) : ranks_((initialize(), MPI_COMM_WORLD), by_signal) {
+  MpiWorld(const std::stop_token& by_signal, const std::function<void()>& stop)
+      : may_ring_(initialize()), ranks_(MPI_COMM_WORLD, by_signal, [this] { ring(); }) {
+    if (may_ring_) bell_.emplace(by_signal, stop);
     MPI_Comm machine;
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
     MPI_Comm_size(machine, &on_this_machine_);
@@ -30,15 +34,22 @@ class MpiWorld final : public World {
 
   void end(const std::string& message, int code) override {
     if (!ranks_.end(message)) MPI_Abort(MPI_COMM_WORLD, code);
+    bell_.reset();
     MPI_Finalize();
   }
 
  private:
-  static void initialize() {
+  /// Returns whether several threads may call MPI.
+  static bool initialize() {
     use_no_network_on_one_machine();
     int provided = 0;
-    if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS)
+    if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_MULTIPLE, &provided) != MPI_SUCCESS)
       throw std::runtime_error("MPI cannot be initialized");
+    return provided == MPI_THREAD_MULTIPLE;
+  }
+
+  void ring() {
+    if (bell_) bell_->ring();
   }
 
   /// Open MPI looks at network cards that match messages (its component cm) for 0.2 s. Between the processes of one
@@ -49,15 +60,17 @@ class MpiWorld final : public World {
     if (all != nullptr && here != nullptr && std::string_view(all) == here) setenv("OMPI_MCA_pml", "^cm", 0);
   }
 
+  bool may_ring_;
   sim::MpiRanks ranks_;
+  std::optional<MpiBell> bell_;
   int on_this_machine_ = 1;
 };
 
 }  // namespace
 
-std::unique_ptr<World> join_mpi(const std::stop_token& by_signal) {
+std::unique_ptr<World> join_mpi(const std::stop_token& by_signal, const std::function<void()>& stop) {
   if (launched_processes() == 1) return nullptr;
-  return std::make_unique<MpiWorld>(by_signal);
+  return std::make_unique<MpiWorld>(by_signal, stop);
 }
 
 }  // namespace detp::cli

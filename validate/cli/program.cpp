@@ -196,7 +196,7 @@ int run_program(int argc, char** argv, const JoinWorld& join) {
     return fail(ExitCode::bad_input,
                 fmt::format("{} processes were started together, but detp was built without MPI", processes));
   try {
-    if (const auto world = join ? join(interruption.signal_token()) : nullptr)
+    if (const auto world = join ? join(interruption.signal_token(), [&] { interruption.stop(); }) : nullptr)
       return run_on(*world, argc, argv, interruption);
   } catch (const std::exception& error) {
     return fail(ExitCode::internal, error.what());

@@ -21,8 +21,10 @@ class World {
   virtual void end(const std::string& message, int code) = 0;
 };
 
-/// Joins the other processes, if there are any; else returns null. `by_signal`: a stop that a signal requested.
-using JoinWorld = std::function<std::unique_ptr<World>(const std::stop_token& by_signal)>;
+/// Joins the other processes, if there are any; else returns null. `by_signal`: a stop that a signal requested. `stop`, which may be called on
+/// any thread until the world is destroyed, requests the same when another process was stopped.
+using JoinWorld =
+    std::function<std::unique_ptr<World>(const std::stop_token& by_signal, const std::function<void()>& stop)>;
 
 /// Number of processes that a launcher of MPI started together, by its variables; 1 without one.
 [[nodiscard]] int launched_processes();

@@ -32,6 +32,7 @@ Box box_around_centres(const std::vector<Disc>& discs) {
 std::uint32_t code_bit_by_bit(const glm::dvec3& point, const Box& box, int bits) {
   const double cells = std::ldexp(1.0, bits);
   std::uint32_t code = 0;
+  if (box.longest_side() == 0) return code;
   for (int axis = 0; axis < 3; ++axis) {
     const double along = (point[axis] - box.low[axis]) * (cells / box.longest_side());
     const auto cell = static_cast<std::uint32_t>(std::min(along, cells - 1));

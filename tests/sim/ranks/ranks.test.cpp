@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <numeric>
+#include <thread>
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/ranks/failures.hpp"
@@ -34,7 +36,34 @@ TEST_SUITE("ranks") {
     };
     for (const std::exception_ptr& thrown : end(-1))
       CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown), "stopped at 5 rays", Stopped);
-    CHECK_THROWS_WITH_AS(std::rethrow_exception(end(2)[0]), "rank 2: no room", RankFailed);
+    for (const std::size_t rank : {0, 1})
+      CHECK_THROWS_WITH_AS(std::rethrow_exception(end(2)[rank]), "rank 2: no room", RankFailed);
+  }
+
+  TEST_CASE("a rank that fails alerts the others, which stop what they do and throw its message") {
+    const auto thrown = on_ranks(3, [&](ThreadRank& ranks) {
+      do_on_all(ranks, [&] {
+        if (ranks.rank() == 2) throw std::length_error("no room");
+        for (int i = 0; i < 10'000 && !ranks.alerted().stop_requested(); ++i)
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        if (ranks.alerted().stop_requested()) throw Stopped("stopped");
+      });
+    });
+    for (const std::size_t rank : {0, 1})
+      CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown[rank]), "rank 2: no room", RankFailed);
+  }
+
+  TEST_CASE("a rank that is stopped alerts nobody: others may be at their end") {
+    const auto thrown = on_ranks(2, [&](ThreadRank& ranks) {
+      try {
+        do_on_all(ranks, [&] {
+          if (ranks.rank() == 1) throw Stopped("stopped");
+        });
+      } catch (const Stopped&) {
+        CHECK_FALSE(ranks.alerted().stop_requested());
+      }
+    });
+    for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
   }
 
   TEST_CASE("parts of an array follow one another, for any number of ranks") {

@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <stdexcept>
+#include <stop_token>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -32,6 +33,8 @@ class Post {
     return letter;
   }
 
+  std::stop_source alerted;
+
  private:
   std::mutex mutex_;
   std::condition_variable came_;
@@ -43,6 +46,8 @@ class ThreadRank final : public Ranks {
   ThreadRank(Post& post, int rank, int count) : post_(post), rank_(rank), count_(count) {}
   [[nodiscard]] int rank() const override { return rank_; }
   [[nodiscard]] int count() const override { return count_; }
+  void alert() override { post_.alerted.request_stop(); }
+  [[nodiscard]] std::stop_token alerted() const { return post_.alerted.get_token(); }
   void send(std::span<const std::byte> bytes, int to) override { post_.put({rank_, to}, {bytes.begin(), bytes.end()}); }
   void receive(std::span<std::byte> bytes, int from) override {
     const std::vector<std::byte> letter = post_.take({from, rank_});
