@@ -54,14 +54,15 @@ std::vector<std::string> Farm::all(const std::vector<std::string>& tasks, const 
       if (chosen[i] == 0) results[i] = work_(tasks[i]);
     } catch (...) {
       thrown = std::current_exception();
+      if (!is_stop(thrown)) ranks_.alert();
     }
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     if (chosen[i] == 0) continue;
     const auto end = ranks_.receive_one<TaskEnd>(chosen[i]);
     results[i] = receive_text(ranks_, chosen[i]);
-    if (thrown || end == TaskEnd::well) continue;
-    thrown = end == TaskEnd::stopped ? std::make_exception_ptr(Stopped(results[i]))
-                                     : std::make_exception_ptr(RankFailed(chosen[i], results[i]));
+    if (end == TaskEnd::failed && (!thrown || is_stop(thrown)))
+      thrown = std::make_exception_ptr(RankFailed(chosen[i], results[i]));
+    if (end == TaskEnd::stopped && !thrown) thrown = std::make_exception_ptr(Stopped(results[i]));
   }
   if (thrown) std::rethrow_exception(thrown);
   return results;
@@ -82,6 +83,7 @@ void Farm::serve() {
         } catch (const std::exception& error) {
           end = TaskEnd::failed;
           result = error.what();
+          ranks_.alert();
         }
       ranks_.send_one(end, 0);
       send_text(ranks_, result, 0);

@@ -22,8 +22,8 @@ class Farm {
   Farm& operator=(const Farm&) = delete;
 
   /// On rank 0. The results of the tasks, in their order. `costs`: expected, in any unit; empty if all are equal. Each rank does the tasks that
-  /// are its own, so that the largest sum of costs is small. Throws what a task throws here, RankFailed for what it throws elsewhere, and
-  /// Stopped if one was stopped elsewhere; then no task is under way.
+  /// are its own, so that the largest sum of costs is small. Throws what a task throws here, RankFailed for what it throws elsewhere, or
+  /// if none failed Stopped if one was stopped; then no task is under way.
   [[nodiscard]] std::vector<std::string> all(const std::vector<std::string>& tasks,
                                              const std::vector<double>& costs = {});
 

@@ -46,7 +46,8 @@ TEST_SUITE("ranks") {
         if (ranks.rank() == 2) throw std::length_error("no room");
         for (int i = 0; i < 10'000 && !ranks.alerted().stop_requested(); ++i)
           std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        if (ranks.alerted().stop_requested()) throw Stopped("stopped");
+        CHECK(ranks.alerted().stop_requested());
+        throw Stopped("stopped");
       });
     });
     for (const std::size_t rank : {0, 1})
@@ -128,6 +129,26 @@ TEST_SUITE("ranks") {
       CHECK(farm.all({"a", "b"}) == std::vector<std::string>{"a", "b"});
     });
     for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+  }
+
+  TEST_CASE("a task that fails ends the others at once, on whatever rank") {
+    for (const int failing : {0, 1}) {
+      CAPTURE(failing);
+      const auto thrown = on_ranks(3, [&](ThreadRank& ranks) {
+        const Farm::Work work = [&](const std::string& task) -> std::string {
+          if (task == std::to_string(failing)) throw std::length_error("no room");
+          for (int i = 0; i < 10'000 && !ranks.alerted().stop_requested(); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          CHECK(ranks.alerted().stop_requested());
+          throw Stopped("stopped");
+        };
+        Farm farm(ranks, work);
+        if (ranks.rank() != 0) return farm.serve();
+        static_cast<void>(farm.all({"0", "1", "2"}));
+      });
+      CHECK_THROWS_WITH_AS(std::rethrow_exception(thrown[0]), failing == 0 ? "no room" : "rank 1: no room",
+                           std::exception);
+    }
   }
 
   TEST_CASE("the most expensive tasks come first, each to the rank that has least to do") {
