@@ -60,8 +60,17 @@ HWY_INLINE Mask sound_vectors(const Doubles* fields) {
                  hn::Le(off, hn::Set(lanes, unit_tolerance)));
 }
 
-HWY_INLINE double least(Doubles values) { return hn::GetLane(hn::MinOfLanes(DoubleLanes(), values)); }
-HWY_INLINE double most(Doubles values) { return hn::GetLane(hn::MaxOfLanes(DoubleLanes(), values)); }
+// Highway's MinOfLanes and MaxOfLanes lose infinite numbers on EMU128.
+HWY_INLINE double least(Doubles values) {
+  HWY_ALIGN double all[n];
+  hn::Store(values, DoubleLanes(), all);
+  return *std::min_element(all, all + n);
+}
+HWY_INLINE double most(Doubles values) {
+  HWY_ALIGN double all[n];
+  hn::Store(values, DoubleLanes(), all);
+  return *std::max_element(all, all + n);
+}
 
 DiscExtent DiscExtentOf(std::span<const Disc> discs) {
   const DoubleLanes lanes;
