@@ -42,8 +42,8 @@ class PhotonRounds {
     const std::uint64_t missing = pieces_ - found;
     if (traced_ == 0) return std::clamp<std::uint64_t>(missing / 4, least_in_a_round, most_in_first_round);
     const double each = static_cast<double>(found) / static_cast<double>(traced_);
-    const double in_vain = 1 + 2 / std::sqrt(static_cast<double>(traced_));  // so that a further round is rarely needed
-    const double more = each > 0 ? in_vain * static_cast<double>(missing) / each : 2.0 * static_cast<double>(traced_);
+    const double margin = 1 + 2 / std::sqrt(static_cast<double>(traced_));  // so that a further round is rarely needed
+    const double more = each > 0 ? margin * static_cast<double>(missing) / each : 2.0 * static_cast<double>(traced_);
     const auto most = static_cast<double>(std::min(most_in_a_round_, limit_));
     return std::max(least_in_a_round, static_cast<std::uint64_t>(std::min(more, most)));
   }

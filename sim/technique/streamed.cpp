@@ -111,11 +111,7 @@ StreamedOutcome StreamedSearch::take() {
   return std::exchange(streamed_, std::move(next));
 }
 
-std::size_t default_block(std::size_t discs) {
-  constexpr std::size_t least = std::size_t{1} << 20;
-  constexpr std::size_t most = std::size_t{1} << 24;
-  return std::bit_ceil(std::clamp(4 * std::min(discs, most), least, most));
-}
+std::size_t default_block(std::size_t discs) { return std::max(std::size_t{1} << 20, rays_in_block(discs)); }
 
 std::size_t block_in_memory(std::size_t discs) {
   constexpr std::size_t least = std::size_t{1} << 15;

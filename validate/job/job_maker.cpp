@@ -220,7 +220,7 @@ class JobMaker {
     keep(sim::photon_paths(scene, count, request_.seed, caster_, stop_));
   }
 
-  /// Its rays fill more than a block, and memory too much, or ranks share them.
+  /// Its rays are to stay in the file: ranks share them, or they are more than a block and take more than half of the memory.
   [[nodiscard]] bool is_large(const std::string& path) const {
     const auto table = sim::TableFile::open(path, sim::ray_columns());
     if (!table) return false;
