@@ -1,0 +1,22 @@
+# Prints why tests, or parts of them, were skipped: the lines "skipped: …" of what they printed. ctest calls it at its end, in the top
+# folder of the build (CTestCustom.cmake), when its log still has this name.
+cmake_policy(VERSION 3.25)
+set(log Testing/Temporary/LastTest.log.tmp)
+if(NOT EXISTS ${log})
+  return()
+endif()
+file(READ ${log} text)
+string(REGEX REPLACE "[][;]|Regex=[^\n]*" "" text "${text}")  # what would split or join elements of a list; ctest's own words
+string(REGEX MATCHALL "[0-9]+/[0-9]+ Testing: [^\n]*|skipped: [^\n]*" lines "${text}")
+foreach(line IN LISTS lines)
+  if(line MATCHES " Testing: (.*)$")
+    set(test ${CMAKE_MATCH_1})
+  else()
+    string(SUBSTRING "${line}" 9 -1 reason)
+    list(APPEND reasons "${test}: ${reason}")
+  endif()
+endforeach()
+list(REMOVE_DUPLICATES reasons)
+foreach(reason IN LISTS reasons)
+  message("skipped in ${reason}")
+endforeach()
