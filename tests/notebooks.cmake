@@ -15,12 +15,18 @@ set(package ${BUILD}/notebooks-package)
 file(COPY ${SOURCE}/validate/python/detp DESTINATION ${package})
 execute_process(COMMAND ${python} ${SOURCE}/validate/python/declarations.py ${SOURCE}/validate/c/detp.h ${package}/detp
                 COMMAND_ERROR_IS_FATAL ANY)
+# Nothing of the user's: calibration, settings of matplotlib and IPython, HOME, which may not be there.
+foreach(name HOME XDG_CACHE_HOME MPLCONFIGDIR IPYTHONDIR JUPYTER_RUNTIME_DIR JUPYTER_CONFIG_DIR)
+  set(ENV{${name}} ${BUILD}/notebooks-home)
+endforeach()
+file(MAKE_DIRECTORY ${BUILD}/notebooks-home)
+unset(ENV{MPLBACKEND})
 set(ENV{PYTHONPATH} ${package})
 set(ENV{DETP_LIBRARY} ${LIBRARY})
 
 file(GLOB notebooks ${SOURCE}/notebooks-data/*.ipynb)
 foreach(notebook ${notebooks})
-  execute_process(COMMAND ${CMAKE_COMMAND} -E env DETP_FIGURES=${drawn} ${python} -m nbconvert --to notebook --execute --stdout ${notebook}
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env DETP_FIGURES=${drawn} ${python} -m nbconvert --to notebook --execute --ExecutePreprocessor.startup_timeout=3000 --ExecutePreprocessor.timeout=-1 --stdout ${notebook}
                   WORKING_DIRECTORY ${SOURCE}/notebooks-data RESULT_VARIABLE failed OUTPUT_QUIET ERROR_VARIABLE errors)
   if(failed)
     message(SEND_ERROR "${notebook}:\n${errors}")

@@ -37,7 +37,7 @@ def complaint(environment: "dict[str, str]", page: str, command: str, quoted: "l
 
 def main() -> int:
     folder, *pages = map(Path, sys.argv[1:])
-    environment = {**os.environ, "PATH": f"{folder.resolve()}:{os.environ['PATH']}"}
+    environment = {**os.environ, "XDG_CACHE_HOME": "/dev/null", "PATH": f"{folder.resolve()}:{os.environ['PATH']}"}
     all_commands = [(page.name, *one) for page in pages for one in commands(page.resolve())]
     with ThreadPoolExecutor(2) as workers:
         complaints = [text for text in workers.map(lambda one: complaint(environment, *one), all_commands) if text]

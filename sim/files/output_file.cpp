@@ -37,7 +37,7 @@ OutputFile::OutputFile(const std::string& path, Temporary temporary) : path_(pat
     if (descriptor_ < 0) fail("cannot be written");
   } else {
     // A rename would replace even a write-protected file, so check first.
-    if (exists && ::access(path.c_str(), W_OK) != 0) fail("cannot be written");
+    if (exists && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) fail("cannot be written");
     open_temporary(temporary);
     if (exists && ::fchmod(descriptor_, status.st_mode & 07777) != 0) fail("cannot be written");
   }

@@ -83,7 +83,7 @@ void require_writable(const std::string& path) {
   struct stat status {};
   const bool special = ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
   if (!special) return (void)OutputFile(path);
-  if (::access(path.c_str(), W_OK) != 0) refuse();
+  if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) refuse();
 }
 
 bool same_place(const std::string& a, const std::string& b) {

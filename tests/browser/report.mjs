@@ -47,6 +47,7 @@ async function keyboard(page, name) {
 async function look(browser, path, scheme, width) {
   const name = `${basename(path)} ${scheme} ${width}`;
   const context = await browser.newContext({ colorScheme: scheme, viewport: { width, height: 900 } });
+  context.setDefaultTimeout(0);  // ctest has the only limit
   const page = await context.newPage();
   const requests = [];
   page.on("request", (one) => { if (!one.url().startsWith("data:")) requests.push(one.url()); });
@@ -94,6 +95,7 @@ async function look(browser, path, scheme, width) {
 
 async function withoutScripts(browser, path) {
   const context = await browser.newContext({ javaScriptEnabled: false });
+  context.setDefaultTimeout(0);  // ctest has the only limit
   const page = await context.newPage();
   await page.goto(pathToFileURL(resolve(path)).href);
   check(await page.locator("svg").count() >= 1 && await page.locator(".card").count() >= 1, `${basename(path)}: empty without scripts`);
@@ -101,7 +103,7 @@ async function withoutScripts(browser, path) {
 }
 
 mkdirSync(pictures, { recursive: true });
-const browser = await chromium.launch({ executablePath: program, args: ["--no-sandbox", "--disable-dev-shm-usage"] });
+const browser = await chromium.launch({ executablePath: program, args: ["--no-sandbox", "--disable-dev-shm-usage"], timeout: 0 });
 for (const [index, path] of pages.entries()) {
   // The first page at all widths; the others have the same layout.
   for (const scheme of ["light", "dark"])

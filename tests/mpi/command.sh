@@ -36,7 +36,8 @@ for technique in box-tree octree sphere-cache grid; do
 done
 one some-rays @cornell --samples 500 --rays 150000 --standard-error
 for count in 2 7; do same $count some-rays @cornell --samples 500 --rays 150000 --standard-error; done
-on 2 run @cornell --rays 150000 | grep -q '^ranks *2 processes share the rays' || fail '150 000 rays are not shared'
+on 2 run @cornell --rays 150000 > shared
+grep -q '^ranks *2 processes share the rays' shared || fail '150 000 rays are not shared'
 one few-rays @cornell --samples 500 --rays 20000
 same 2 few-rays @cornell --samples 500 --rays 20000
 
@@ -44,13 +45,20 @@ same 2 few-rays @cornell --samples 500 --rays 20000
 until='@cornell --samples 1000 --disc-radius 3% --target-noise 4%'
 one until $until
 for count in 2 3; do same $count until $until; done
-"$detp" run $until --checkpoint state --quiet --threads 1 > /dev/null &
-until [ -s state ]; do kill -0 $! || break; sleep 0.02; done
-kill -TERM $! || fail 'the first part ended before it was stopped'
-code=0
-wait $! || code=$?
-if [ $code = 0 ] || [ ! -s state ]; then fail "the first part ended with code $code"; fi
-same 3 until $until --checkpoint state --resume
+# A part that is stopped after its first checkpoint; a fast machine needs more to do.
+for noise in 4 3 2 1; do
+  part="${until% *} $noise%"
+  rm -f state
+  "$detp" run $part --checkpoint state --quiet --threads 1 > /dev/null &
+  until [ -s state ]; do kill -0 $! 2> /dev/null || break; sleep 0.02; done
+  kill -TERM $! 2> /dev/null || true
+  code=0
+  wait $! || code=$?
+  if [ $code = 3 ] && [ -s state ]; then break; fi
+done
+if [ $code != 3 ] || [ ! -s state ]; then fail "the first part ended with code $code"; fi
+if [ "$part" != "$until" ]; then one part $part; else cp until.csv part.csv; fi
+same 3 part $part --checkpoint state --resume
 
 # Verdicts.
 "$detp" validate --experiments lines,index,errors --samples 3000 --format json --quiet --threads 1 > one.json
@@ -70,18 +78,21 @@ told 2 'nothing.ply: cannot be opened' run nothing.ply
 told 2 'detp choose works on one process' choose @cornell
 told 2 'there is no technique "kd-tree"' run @cornell --technique kd-tree
 
-# One rank that is stopped stops all, at once.
-"$mpirun" --oversubscribe -n 2 "$detp" run @cornell --rays 1e9 --technique box-tree --threads 1 > out 2> errors &
-launcher=$!
-until mapfile -t ranks < <(ranks_of $launcher) && [ ${#ranks[@]} = 2 ]; do kill -0 $launcher || break; sleep 0.05; done
-sleep 1
-kill -TERM "${ranks[1]}"
-begin=$(date +%s%3N)
-code=0
-wait $launcher || code=$?
-taken=$(($(date +%s%3N) - begin))
-if [ $code != 3 ] || [ $taken -gt 5000 ] || ! grep -q stopped out errors; then
-  fail "one rank stopped: code $code after $taken ms: $(cat out errors)"
-fi
+# One rank that is stopped stops all, at once. On a busy machine a rank may seem silent, or end late: three attempts.
+stop_one() {
+  "$mpirun" --oversubscribe -n 2 "$detp" run @cornell --rays 1e9 --technique box-tree --threads 1 > out 2> errors &
+  launcher=$!
+  until mapfile -t ranks < <(ranks_of $launcher) && [ ${#ranks[@]} = 2 ]; do kill -0 $launcher || break; sleep 0.05; done
+  sleep "$1"
+  kill -TERM "${ranks[1]}"
+  begin=$(date +%s%3N)
+  code=0
+  wait $launcher || code=$?
+  taken=$(($(date +%s%3N) - begin))
+  if [ $code = 3 ] && [ $taken -le 5000 ] && grep -q stopped out errors; then return 0; fi
+  echo "one rank stopped: code $code after $taken ms: $(cat out errors)" >&2
+  return 1
+}
+stop_one 1 || stop_one 2 || stop_one 4 || fail 'one rank that was stopped did not stop all, three times'
 
 [ $failures = 0 ]

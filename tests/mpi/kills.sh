@@ -11,7 +11,9 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-longest=5000  # ms until all processes have ended
+at_once=5000    # ms in which all processes should end
+longest=120000  # ms in which they must end, on the busiest machine
+late=0
 failures=0
 fail() { echo "FAILED at kill $kill: $*" >&2; failures=$((failures + 1)); }
 now() { date +%s%3N; }
@@ -61,7 +63,7 @@ for kill in $(seq "$kills"); do
   taken=$(($(now) - begin))
   if goes_on; then fail 'a rank goes on'; fi
   if [ $code != 0 ]; then
-    if [ $taken -gt $longest ]; then fail "it took $taken ms until all had ended"; fi
+    if [ $taken -gt $at_once ]; then late=$((late + 1)); fi
     if [ $taken -gt $slowest ]; then slowest=$taken; fi
     # A run until an error that SIGTERM stops has an answer, and writes it.
     if [ -e found.csv ] && ! { [ $signal = 15 ] && [ $with_checkpoint = 1 ]; }; then
@@ -72,12 +74,14 @@ for kill in $(seq "$kills"); do
     cmp found.csv $expected || fail "$count processes found other numbers"
     if [ $with_checkpoint = 1 ]; then rm -f state; fi
   fi
-  if compgen -G '*.part*' > /dev/null || compgen -G '*.tmp*' > /dev/null; then fail "left behind: $(ls)"; fi
+  if compgen -G '.detp-*.part' > /dev/null || compgen -G '*.tmp*' > /dev/null; then fail "left behind: $(ls -A)"; fi
 done
 
 # What the last checkpoint kept is enough.
 kill=end
 "$mpirun" --oversubscribe -n 3 "$detp" $until found.csv --checkpoint state --resume > /dev/null
 cmp found.csv until.csv || fail 'the resumed run found other numbers'
+# Another job may delay an end now and then.
+if [ $late -gt $((1 + kills / 100)) ]; then fail "$late ends took more than $at_once ms"; fi
 echo "$kills kills, $died of them while ranks ran; the slowest end took $slowest ms; $failures failures"
 [ $failures = 0 ]

@@ -80,8 +80,8 @@ class Arrays(unittest.TestCase):
             "discs = random.uniform(-1, 1, (1000, 6))\n"
             "before = peak()\n"
             "r = detp.Rays(rays[:, :3], rays[:, 3:6], 2.0)\n"
-            "plan = detp.plan(detp.Discs(discs[:, :3], discs[:, 3:], 0.01), r)\n"
-            "plan.search(r)\n"
+            "plan = detp.plan(detp.Discs(discs[:, :3], discs[:, 3:], 0.01), r, threads=2)\n"
+            "plan.search(r, threads=2)\n"
             "print((peak() - before) / 1024)\n")
         answer = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
         self.assertLess(float(answer.stdout), 80)  # MiB; a copy of the rays alone takes 183

@@ -1,6 +1,5 @@
 #include "allocations.hpp"
 
-#include <atomic>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -9,7 +8,7 @@
 
 namespace {
 
-std::atomic<std::uint64_t> calls = 0;
+thread_local std::uint64_t calls = 0;
 
 }  // namespace
 

@@ -4,7 +4,7 @@
 
 namespace detp::support {
 
-/// Number of calls of operator new so far, in the whole process. Builds with sanitizers do not count them: 0.
+/// Number of calls of operator new so far, on this thread. Builds with sanitizers do not count them: 0.
 [[nodiscard]] std::uint64_t allocations();
 
 }  // namespace detp::support

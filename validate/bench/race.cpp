@@ -24,19 +24,17 @@ class RaceRunner {
 
   Race run_all(const std::vector<Competitor>& competitors) {
     for (const Competitor& competitor : competitors) race_.results.push_back({competitor});
-    double ours = 0;
-    double peers = 0;
+    finalist_.assign(competitors.size(), false);
     const auto begin = [&](int round) {
       if (round == 1) {
-        ours = slowest_finalist(true);
-        peers = slowest_finalist(false);
+        choose_finalists(is_own_technique);
+        choose_finalists(is_embree);
       }
       return round < least_rounds || watch_.seconds() < options_.most_seconds;
     };
     in_turns(competitors.size(), options_.repeats, begin, [&](std::size_t i, int round) {
       CompetitorResult& result = race_.results[i];
-      if (round == 0 || std::holds_alternative<OwnChoice>(result.competitor)) return run(result);
-      return result.seconds.front() > (is_embree(result.competitor) ? peers : ours) || run(result);
+      return (round > 0 && !finalist_[i] && !std::holds_alternative<OwnChoice>(result.competitor)) || run(result);
     });
     std::erase_if(race_.results, [](const CompetitorResult& result) { return result.seconds.empty(); });
     race_.complete = race_.results.size() == competitors.size();
@@ -94,15 +92,14 @@ class RaceRunner {
     return true;
   }
 
-  /// The first-round time of the slowest finalist among our techniques if `ours`, else among Embree's modes.
-  [[nodiscard]] double slowest_finalist(bool ours) const {
-    std::vector<double> first;
-    for (const CompetitorResult& result : race_.results)
-      if ((ours ? is_own_technique : is_embree)(result.competitor) && !result.seconds.empty())
-        first.push_back(result.seconds.front());
-    if (first.empty()) return 0;
-    std::sort(first.begin(), first.end());
-    return first[std::min(first.size(), static_cast<std::size_t>(options_.finalists)) - 1];
+  /// Those of a side that were the fastest in the first round run in all later ones.
+  void choose_finalists(bool (*of_side)(const Competitor&)) {
+    std::vector<std::size_t> side;
+    for (std::size_t i = 0; i < race_.results.size(); ++i)
+      if (of_side(race_.results[i].competitor) && !race_.results[i].seconds.empty()) side.push_back(i);
+    std::ranges::stable_sort(side, {}, [&](std::size_t i) { return race_.results[i].seconds.front(); });
+    side.resize(std::min(side.size(), static_cast<std::size_t>(options_.finalists)));
+    for (const std::size_t i : side) finalist_[i] = true;
   }
 
   const Job& job_;
@@ -111,6 +108,7 @@ class RaceRunner {
   const RaceOptions& options_;
   sim::Stopwatch watch_;
   double share_ = 0;  ///< share of the time that is done after the current run
+  std::vector<bool> finalist_;
   Race race_;
 };
 

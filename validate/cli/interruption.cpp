@@ -56,6 +56,7 @@ void Interruption::limit(double seconds) {
   if (!(seconds > 0)) return;
   const auto end_of_time =
       start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, longest)));
+  if (end_of_time <= Clock::now()) return request(true);
   clock_ = std::jthread([this, end_of_time](const std::stop_token& end) {
     std::mutex mutex;
     std::condition_variable_any never;

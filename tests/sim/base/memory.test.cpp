@@ -7,27 +7,24 @@
 #include <limits>
 #include <stdexcept>
 
+#include "support/scratch_file.hpp"
+
 using namespace detp::sim;
 using doctest::Contains;
 
 namespace {
 
-/// A temporary folder of made-up cgroups, which the destructor removes.
+/// A temporary folder of made-up cgroups.
 class Groups {
  public:
-  Groups() { std::filesystem::create_directories(root_); }
-  ~Groups() { std::filesystem::remove_all(root_); }
-  Groups(const Groups&) = delete;
-  Groups& operator=(const Groups&) = delete;
-
   void write(const std::filesystem::path& file, const char* content) const {
-    std::filesystem::create_directories((root_ / file).parent_path());
-    std::ofstream(root_ / file) << content << "\n";
+    std::filesystem::create_directories((root() / file).parent_path());
+    std::ofstream(root() / file) << content << "\n";
   }
-  [[nodiscard]] const std::filesystem::path& root() const { return root_; }
+  [[nodiscard]] std::filesystem::path root() const { return folder_.path("."); }
 
  private:
-  std::filesystem::path root_ = std::filesystem::temp_directory_path() / "detp-cgroups-test";
+  detp::support::ScratchFolder folder_;
 };
 
 /// Restores the default limit after a test.

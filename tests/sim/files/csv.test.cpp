@@ -5,6 +5,7 @@
 #include <array>
 #include <clocale>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "support/scratch_file.hpp"
@@ -88,11 +89,18 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("a locale with a decimal comma changes nothing") {
+    const support::ScratchFolder folder;
+    const std::string command = "localedef -i de_DE -f UTF-8 " + folder.path("de_DE.UTF-8") + " >/dev/null 2>&1";
+    static_cast<void>(std::system(command.c_str()));
+    ::setenv("LOCPATH", folder.path(".").c_str(), 1);
     const std::string before = std::setlocale(LC_NUMERIC, nullptr);
-    if (std::setlocale(LC_NUMERIC, "de_DE.UTF-8") == nullptr) {
-      MESSAGE("skipped: the locale de_DE.UTF-8 is not installed");
+    const bool comma = std::setlocale(LC_NUMERIC, "de_DE.UTF-8") != nullptr;
+    ::unsetenv("LOCPATH");
+    if (!comma) {
+      MESSAGE("skipped: localedef cannot make de_DE.UTF-8 (Debian: locales)");
       return;
     }
+    CHECK(*std::localeconv()->decimal_point == ',');
     CHECK(read_table("a,b\n1.5,1e-400\n").values[0][0] == 1.5);
     std::setlocale(LC_NUMERIC, before.c_str());
   }

@@ -2,9 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
+#include <utility>
 
 #include "../ranks/thread_ranks.hpp"
 #include "detp/sim/base/memory.hpp"
@@ -15,6 +17,7 @@
 #include "detp/sim/search/irradiance.hpp"
 #include "detp/sim/technique/ranked_rays.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "support/attempts.hpp"
 #include "support/discs_elsewhere.hpp"
 #include "support/memory_limit.hpp"
 
@@ -286,20 +289,22 @@ TEST_SUITE("ranks") {
     const StreamedOutcome expected = run_streamed(discs, UnequalLines(sphere, count), techniques[0], options_of(true));
     for (const int slow : {0, 1, 2}) {
       CAPTURE(slow);
-      StreamedOutcome found;
-      std::vector<std::uint64_t> loaded(3);
-      const auto thrown = on_ranks(3, [&](Ranks& ranks) {
-        const UnequalLines lines(sphere, count, ranks.rank() == slow ? 0.15 : 0.02);
-        RankedOutcome own = run_on_ranks(discs, lines, techniques[0], options_of(true), ranks);
-        loaded[static_cast<std::size_t>(ranks.rank())] = lines.made();
-        if (ranks.rank() == 0) found = std::move(own.found);
-      });
-      for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
-      check_same(found, expected);
-      for (int rank = 0; rank < 3; ++rank)
-        if (rank != slow)
-          CHECK(loaded[static_cast<std::size_t>(slow)] <
-                0.6 * static_cast<double>(loaded[static_cast<std::size_t>(rank)]));
+      double seconds = 0.02;
+      CHECK(support::in_attempts(5, [&] {  // on a busy machine the others may seem slow, too
+        StreamedOutcome found;
+        std::vector<std::uint64_t> loaded(3);
+        const auto thrown = on_ranks(3, [&](Ranks& ranks) {
+          const UnequalLines lines(sphere, count, ranks.rank() == slow ? 7.5 * seconds : seconds);
+          RankedOutcome own = run_on_ranks(discs, lines, techniques[0], options_of(true), ranks);
+          loaded[static_cast<std::size_t>(ranks.rank())] = lines.made();
+          if (ranks.rank() == 0) found = std::move(own.found);
+        });
+        for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+        check_same(found, expected);
+        seconds *= 2;
+        const std::uint64_t of_slow = std::exchange(loaded[static_cast<std::size_t>(slow)], count);
+        return static_cast<double>(of_slow) < 0.6 * static_cast<double>(std::ranges::min(loaded));
+      }));
     }
   }
 

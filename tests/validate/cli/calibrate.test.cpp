@@ -5,6 +5,7 @@
 
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
+#include "support/attempts.hpp"
 #include "support/command.hpp"
 
 namespace detp::support {
@@ -45,7 +46,10 @@ TEST_SUITE("long") {
     if (calibrated.at("key").at("threads") > 1) {
       CHECK(calibrated.at("threads").at("simd").contains("box-tree"));
       CHECK_FALSE(calibrated.at("threads").at("simd").contains("sphere-tree"));  // one thread searches it
-      CHECK_FALSE(calibrated.at("thread_fits").empty());
+      CHECK((!calibrated.at("thread_fits").empty() ||
+             in_attempts(4, [] {  // on a busy machine threads may seem to gain nothing
+               return !detp("calibrate --seconds 0.1 --format json").json().at("thread_fits").empty();
+             })));
     }
     CHECK(calibrated.at("saved") == folder.path("cache/detp/calibration.json"));
     const Json after = detp(question).json();

@@ -111,23 +111,25 @@ TEST_SUITE("identity") {
     auto file = nlohmann::json::parse(support::content_of(folder.path("map.json")));
     REQUIRE(file.at("state").size() == 2);
     file["state"].erase(file["state"].begin());
+    for (nlohmann::json& one : file["state"].begin().value()["candidates"])
+      if (one["seconds"].is_number()) one["seconds"] = 100 + one["seconds"].get<double>();
     folder.file("map.json", file.dump());
     options.resume = true;
     const TechniqueMap again = make_map(scene_request(100), axes, options);
     const auto measured = [&](const TechniqueMap& one, std::size_t cell) {
       return *one.rows.at(0).cells.at(cell).analysis;
     };
-    int same = 0;
+    int kept = 0;
     for (std::size_t cell = 0; cell < 2; ++cell) {
       const Analysis before = measured(map, cell);
       const Analysis after = measured(again, cell);
-      same += before.candidates.front().seconds == after.candidates.front().seconds ? 1 : 0;
+      kept += after.candidates.front().seconds == 100 + *before.candidates.front().seconds ? 1 : 0;
       for (const Analysed& one : after.candidates) CHECK((!one.seconds || *one.seconds > 0));
       CHECK(after.candidates.front().candidate == before.candidates.front().candidate);
       CHECK(after.candidates.front().predicted);
       CHECK(after.candidates.front().counted == before.candidates.front().counted);
     }
-    CHECK(same == 1);
+    CHECK(kept == 1);
     CHECK(nlohmann::json::parse(support::content_of(folder.path("map.json"))).at("state").size() == 2);
     options.threads = 2;
     CHECK_THROWS_AS((void)make_map(scene_request(100), axes, options), sim::FileError);

