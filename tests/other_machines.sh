@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the tests as machines would that differ from this one. Not part of ctest: it takes one to two hours on two cores.
+# Runs the tests as machines would that differ from this one. Not part of ctest: it takes hours, most of them for `processor`.
 #
 #   tests/other_machines.sh BUILD [environment|busy|processor]…     without a name, all
 #

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "detp/sim/base/threads.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
@@ -92,11 +94,14 @@ DiscsAndRays many_segments() { return cut(many_rays_on_few_discs(), 1.5); }
 
 DiscsAndRays few_lines() { return lines_through(uniform_discs(Body::cube, 2, 4'000, 0.02, 5), 100'000); }
 
+/// Threads without a core of their own may have nothing to do, and take no memory.
+const int two_threads = std::min(2, thread_count(0));
+
 struct Case {
   Candidate candidate;
   DiscsAndRays (*make)();
   const char* given;
-  RunOptions options = {.count = false, .threads = 2};
+  RunOptions options = {.count = false, .threads = two_threads};
 };
 
 struct Measured {
@@ -165,9 +170,9 @@ std::vector<Case> cases() {
                                    {Technique::bsp, BspParameters{}},
                                    {Technique::bvh, BvhParameters{BuildQuality::low}},
                                    {Technique::bvh, BvhParameters{BuildQuality::medium}}};
-  RunOptions pairs{.count = false, .pairs = true, .threads = 2};
-  RunOptions errors{.count = false, .standard_error = true, .threads = 2};
-  RunOptions plain{.count = false, .engine = Engine::plain, .threads = 2};
+  RunOptions pairs{.count = false, .pairs = true, .threads = two_threads};
+  RunOptions errors{.count = false, .standard_error = true, .threads = two_threads};
+  RunOptions plain{.count = false, .engine = Engine::plain, .threads = two_threads};
   std::vector<Case> list;
   for (const Candidate& candidate : all) {
     const bool brute = candidate.technique == Technique::brute_force;

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "detp/sim/base/threads.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "support/attempts.hpp"
@@ -46,10 +47,10 @@ TEST_SUITE("long") {
     if (calibrated.at("key").at("threads") > 1) {
       CHECK(calibrated.at("threads").at("simd").contains("box-tree"));
       CHECK_FALSE(calibrated.at("threads").at("simd").contains("sphere-tree"));  // one thread searches it
-      CHECK((!calibrated.at("thread_fits").empty() ||
-             in_attempts(4, [] {  // on a busy machine threads may seem to gain nothing
-               return !detp("calibrate --seconds 0.1 --format json").json().at("thread_fits").empty();
-             })));
+      // With one core there is nothing to fit, and on busy cores threads may seem to gain nothing.
+      if (calibrated.at("thread_fits").empty() && sim::thread_count(0) > 1)
+        CHECK(in_attempts(
+            4, [] { return !detp("calibrate --seconds 0.1 --format json").json().at("thread_fits").empty(); }));
     }
     CHECK(calibrated.at("saved") == folder.path("cache/detp/calibration.json"));
     const Json after = detp(question).json();
