@@ -142,13 +142,13 @@ inline Arguments operator+(Arguments left, const Arguments& right) {
   return left;
 }
 
-/// Runs the line with a time limit of 0.1 s. Doubles the limit (up to about 10 s) until far_enough(result) is true or
+/// Runs the line with a time limit of 0.1 s. Doubles the limit (up to about 200 s) until far_enough(result) is true or
 /// the command ends before its limit.
 template <class FarEnough>
 Finished stopped_in_time(const std::string& line, const FarEnough& far_enough) {
   for (double limit = 0.1;; limit *= 2) {
     Finished finished = Process(words(line + " --time-limit " + std::to_string(limit))).finish();
-    if (finished.code != 3 || far_enough(finished) || limit > 10) return finished;
+    if (finished.code != 3 || far_enough(finished) || limit > 200) return finished;
   }
 }
 

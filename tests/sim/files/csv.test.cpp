@@ -90,7 +90,8 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("a locale with a decimal comma changes nothing") {
     const support::ScratchFolder folder;
-    const std::string command = "localedef -i de_DE -f ISO-8859-1 " + folder.path("de_DE.ISO-8859-1") + " >/dev/null 2>&1";
+    const std::string command =
+        "localedef -i de_DE -f ISO-8859-1 " + folder.path("de_DE.ISO-8859-1") + " >/dev/null 2>&1";
     static_cast<void>(std::system(command.c_str()));
     ::setenv("LOCPATH", folder.path(".").c_str(), 1);
     const std::string before = std::setlocale(LC_NUMERIC, nullptr);
