@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <mutex>
 
 #include "detp/sim/base/parallel.hpp"
@@ -41,14 +42,15 @@ class DiscProgress {
 
 /// Adds the landings of one disc, which are brought into the order of their rays.
 void add(const Problem& problem, Near& near, bool errors, DiscSums& sums) {
+  const double unit = std::ldexp(1.0, unit_exponent(problem.largest_power()));
   std::ranges::sort(near.landed, {}, &Landed::ray);
   for (const Landed& one : near.landed) {
     const double power = one.weight * problem.rays()[one.ray].power;
     sums.power += power;
     sums.most_weight = std::max(sums.most_weight, one.weight);
-    if (errors) sums.photons.add(problem.photon(one.ray), 0, power);
+    if (errors) sums.photons.add(problem.photon(one.ray), 0, power, unit);
   }
-  sums.photons.close();
+  sums.photons.close(unit);
   sums.area = near.area;
   sums.done = true;
 }
@@ -100,8 +102,9 @@ void sum_near(const Problem& problem, const RunOptions& options,
     outcome.irradiance[i] = one.area > 0 ? one.power / one.area : 0;
     if (!options.standard_error) continue;
     const double weight = one.most_weight > 0 ? one.most_weight : 1;
-    const PowerError error =
-        error_of_power(one.power, one.photons.squares.x, one.photons, weight * heaviest_power, photons);
+    const ErrorSums sums_of_squares{one.photons.squares.x, one.photons.largest, one.photons.photons,
+                                    unit_exponent(problem.largest_power())};
+    const PowerError error = error_of_power(one.power, sums_of_squares, weight * heaviest_power, photons);
     outcome.standard_error[i] = one.area > 0 ? error.standard_error / one.area : unbounded;
     outcome.upper_bound[i] = one.area > 0 ? error.upper_bound / one.area : unbounded;
   }

@@ -1,15 +1,13 @@
 #include "disc_file.hpp"
 
-#include <fmt/format.h>
-
+#include <array>
 #include <utility>
 
 #include "detp/sim/base/kept_memory.hpp"
 #include "disc_row.hpp"
 #include "file_error.hpp"
-#include "output_file.hpp"
 #include "table.hpp"
-#include "writing_check.hpp"
+#include "table_writer.hpp"
 
 namespace detp::sim {
 
@@ -24,14 +22,8 @@ std::vector<Disc> read_discs(const std::string& path, std::optional<double> defa
 }
 
 void write_discs(const std::string& path, const std::vector<Disc>& discs, const std::stop_token& stop) {
-  WritingCheck check(path, discs.size(), "discs", stop);
-  OutputFile file(path);
-  file.write("x,y,z,nx,ny,nz,radius\n");
-  for (const auto& [centre, normal, disc_radius] : discs) {
-    check.next();
-    file.write(
-        fmt::format("{},{},{},{},{},{},{}\n", centre.x, centre.y, centre.z, normal.x, normal.y, normal.z, disc_radius));
-  }
+  TableWriter file(path, {"x", "y", "z", "nx", "ny", "nz", "radius"}, discs.size(), "discs", stop);
+  for (const auto& [c, n, radius] : discs) file.write(std::array{c.x, c.y, c.z, n.x, n.y, n.z, radius});
   file.commit();
 }
 

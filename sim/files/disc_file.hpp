@@ -19,7 +19,7 @@ namespace detp::sim {
 [[nodiscard]] std::vector<Disc> read_discs(const std::string& path, std::optional<double> default_radius,
                                            std::stop_token stop = {});
 
-/// Writes discs as CSV with the header x,y,z,nx,ny,nz,radius, with enough digits to read back the same doubles. Throws
+/// Writes discs with the columns x,y,z,nx,ny,nz,radius, as CSV or PLY: table_writer.hpp. The same doubles are read back. Throws
 /// FileError if the file cannot be written, and Stopped.
 void write_discs(const std::string& path, const std::vector<Disc>& discs, const std::stop_token& stop = {});
 

@@ -2,22 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <bit>
-
 #include "output_file.hpp"
+#include "ply_bytes.hpp"
 #include "writing_check.hpp"
 
 namespace detp::sim {
 namespace {
-
-template <class Number>
-void write_little_endian(OutputFile& file, Number number) {
-  auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(number);
-  if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
-  file.write({bytes.data(), bytes.size()});
-}
 
 void write_vector(OutputFile& file, const glm::dvec3& vector) {
   for (int axis = 0; axis < 3; ++axis) write_little_endian(file, vector[axis]);
@@ -35,7 +25,7 @@ void write_header(OutputFile& file, const Mesh& mesh) {
 
 void write_ply(const std::string& path, const Mesh& mesh, const std::stop_token& stop) {
   WritingCheck check(path, mesh.positions.size() + mesh.triangles.size(), "vertices and triangles", stop);
-  OutputFile file(path);
+  OutputFile file(path, stop);
   write_header(file, mesh);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     check.next();

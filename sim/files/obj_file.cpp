@@ -49,6 +49,25 @@ struct HashOfName {
   std::size_t operator()(std::string_view name) const { return std::hash<std::string_view>()(name); }
 };
 
+/// The paths that mtllib lines name, each once.
+class Libraries {
+ public:
+  /// `names` is one name, which may contain blanks; if there is no such file, the words are names.
+  void add(const std::string& obj, std::string_view names) {
+    std::error_code ignored;
+    const bool is_one = std::filesystem::exists(beside(obj, names), ignored);
+    for (std::string_view words = names, word = is_one ? names : cut_word(words); !word.empty();
+         word = is_one ? std::string_view{} : cut_word(words))
+      if (known_.emplace(word).second) paths_.push_back(beside(obj, word));
+  }
+  /// In the order of the file.
+  [[nodiscard]] const std::vector<std::string>& paths() const { return paths_; }
+
+ private:
+  std::vector<std::string> paths_;
+  std::unordered_set<std::string> known_;
+};
+
 /// Indices of a face's corner as written in the file; 0: none.
 struct Corner {
   long long vertex = 0;
@@ -66,7 +85,7 @@ class ObjReader {
       if (lines_.keyword() == "vn") add_normal();
       if (lines_.keyword() == "f") add_face();
       if (lines_.keyword() == "usemtl") use_material(trimmed(lines_.rest()));
-      if (lines_.keyword() == "mtllib") add_libraries(trimmed(lines_.rest()));
+      if (lines_.keyword() == "mtllib") libraries_.add(path_, trimmed(lines_.rest()));
     }
     lines_.note_unknown(notices);
     add_materials(notices);
@@ -112,24 +131,15 @@ class ObjReader {
     return numbers_[names_.back()] = static_cast<std::uint16_t>(names_.size() - 1);
   }
 
-  /// One name, which may contain blanks; if there is no such file, the words are names.
-  void add_libraries(std::string_view names) {
-    std::error_code ignored;
-    const bool is_one = std::filesystem::exists(beside(path_, names), ignored);
-    for (std::string_view words = names, word = is_one ? names : cut_word(words); !word.empty();
-         word = is_one ? std::string_view{} : cut_word(words))
-      if (known_libraries_.emplace(word).second) libraries_.emplace_back(word);
-  }
-
   /// Reads the libraries, and gives each triangle its material. Without a library that can be found, all are matt.
   void add_materials(Notices& notices) {
-    if (runs_.empty() || libraries_.empty()) return;
+    if (runs_.empty() || libraries_.paths().empty()) return;
     StopCheck check(stop_, "matching materials");
     std::vector<Material> materials(names_.size());
     std::vector<bool> defined(names_.size());
     bool some = false;
-    for (const std::string& library : libraries_)
-      for (Material& one : read_mtl(beside(path_, library), notices, stop_)) {
+    for (const std::string& library : libraries_.paths())
+      for (Material& one : read_mtl(library, notices, stop_)) {
         check.after(1);
         some = true;
         const auto used = numbers_.find(one.name);
@@ -209,8 +219,7 @@ class ObjReader {
   std::vector<glm::dvec3> normals_;
   std::vector<CornerNormals> at_positions_;
   std::vector<std::uint32_t> polygon_;
-  std::vector<std::string> libraries_;  ///< in the order of the file
-  std::unordered_set<std::string> known_libraries_;
+  Libraries libraries_;
   std::vector<std::string> names_{""};  ///< of materials
   std::unordered_map<std::string, std::uint16_t, HashOfName, std::equal_to<>> numbers_{{"", 0}};
   std::vector<std::pair<std::size_t, std::uint16_t>> runs_;  ///< first triangle and material, in rising order
@@ -220,6 +229,13 @@ class ObjReader {
 
 Mesh read_obj(const std::string& path, Notices& notices, std::stop_token stop) {
   return ObjReader(path, std::move(stop)).read(notices);
+}
+
+std::vector<std::string> material_files(const std::string& path, std::stop_token stop) {
+  Libraries libraries;
+  for (Statements lines(path, obj_format, std::move(stop)); lines.next();)
+    if (lines.keyword() == "mtllib") libraries.add(path, trimmed(lines.rest()));
+  return libraries.paths();
 }
 
 }  // namespace detp::sim

@@ -2,6 +2,7 @@
 
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "detp/sim/scene/mesh.hpp"
 
@@ -17,5 +18,9 @@ namespace detp::sim {
 /// range, or lines with unknown keywords outnumber the other statements by more than 100; and as TextLines does. Throws
 /// std::length_error if the mesh would not fit in memory, and Stopped.
 [[nodiscard]] Mesh read_obj(const std::string& path, Notices& notices, std::stop_token stop = {});
+
+/// Paths of the material libraries that an OBJ file names, in its order, each once; there may be no file there. Throws as read_obj
+/// does, but does not look at numbers and faces.
+[[nodiscard]] std::vector<std::string> material_files(const std::string& path, std::stop_token stop = {});
 
 }  // namespace detp::sim

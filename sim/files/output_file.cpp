@@ -1,12 +1,18 @@
 #include "output_file.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <cstring>
+#include <utility>
 
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "file_error.hpp"
 #include "output_place.hpp"
 #include "part_files.hpp"
@@ -15,6 +21,26 @@ namespace detp::sim {
 namespace {
 
 constexpr std::size_t buffer_size = 1 << 16;
+constexpr int reader_milliseconds = 20;      // time between two checks for a stop request
+constexpr double seconds_for_reader = 0.15;  // after a stop request
+
+/// Throws Stopped if a stop was requested and the reader has been waited for so long since.
+class Patience {
+ public:
+  Patience(const std::string& path, const std::stop_token& stop) : path_(path), stop_(stop) {}
+
+  void check() {
+    if (!stop_.stop_requested())
+      since_stop_ = {};
+    else if (since_stop_.seconds() >= seconds_for_reader)
+      throw Stopped("stopped while writing " + shown_path(path_) + ": nobody reads it");
+  }
+
+ private:
+  const std::string& path_;
+  const std::stop_token& stop_;
+  Stopwatch since_stop_;
+};
 
 /// Opens a file without a name in the target's folder. Returns -1 if the file system does not support such files, or if
 /// the file could not be named later (no /proc).
@@ -26,15 +52,15 @@ int open_unnamed(const std::string& target) {
 
 }  // namespace
 
-OutputFile::OutputFile(const std::string& path, Temporary temporary) : path_(path) {
+OutputFile::OutputFile(const std::string& path, std::stop_token stop, Temporary temporary)
+    : path_(path), stop_(std::move(stop)) {
   struct stat status {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (const auto descriptor = descriptor_named(path)) {
     descriptor_ = ::dup(*descriptor);
     if (descriptor_ < 0) fail("cannot be written");
   } else if (exists && !S_ISREG(status.st_mode)) {
-    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor_ < 0) fail("cannot be written");
+    open_pipe();
   } else {
     // A rename would replace even a write-protected file, so check first.
     if (exists && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) fail("cannot be written");
@@ -42,6 +68,7 @@ OutputFile::OutputFile(const std::string& path, Temporary temporary) : path_(pat
     if (exists && ::fchmod(descriptor_, status.st_mode & 07777) != 0) fail("cannot be written");
   }
   buffer_.reserve(buffer_size);
+  may_wait_ = target_.empty() && ::fstat(descriptor_, &status) == 0 && !S_ISREG(status.st_mode);
 }
 
 OutputFile::~OutputFile() { discard(); }
@@ -60,6 +87,28 @@ void OutputFile::open_temporary(Temporary temporary) {
   fail("cannot be written");
 }
 
+void OutputFile::open_pipe() {
+  Patience patience(path_, stop_);
+  struct stat status {};
+  for (;;) {
+    // With O_NONBLOCK, a pipe that nobody reads yet is an error. Without, opening it would block.
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor_ >= 0) return;
+    const int error = errno;
+    const bool unread = error == ENXIO && ::stat(path_.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
+    errno = error;
+    if (!unread && error != EINTR) fail("cannot be written");
+    ::poll(nullptr, 0, reader_milliseconds);
+    patience.check();
+  }
+}
+
+void OutputFile::wait_for_reader() {
+  Patience patience(path_, stop_);
+  pollfd wanted{.fd = descriptor_, .events = POLLOUT, .revents = 0};
+  while (::poll(&wanted, 1, reader_milliseconds) <= 0) patience.check();
+}
+
 void OutputFile::write(std::string_view text) {
   buffer_ += text;
   if (buffer_.size() >= buffer_size) flush();
@@ -68,8 +117,11 @@ void OutputFile::write(std::string_view text) {
 void OutputFile::flush() {
   std::string_view rest = buffer_;
   while (!rest.empty()) {
-    const ssize_t count = ::write(descriptor_, rest.data(), rest.size());
-    if (count < 0 && errno != EINTR) fail("cannot be written");
+    if (may_wait_) wait_for_reader();
+    // A pipe that a reader has taken something from has room for PIPE_BUF bytes: writing so many does not block.
+    const std::size_t size = may_wait_ ? std::min<std::size_t>(rest.size(), PIPE_BUF) : rest.size();
+    const ssize_t count = ::write(descriptor_, rest.data(), size);
+    if (count < 0 && errno != EINTR && errno != EAGAIN) fail("cannot be written");
     if (count > 0) rest.remove_prefix(static_cast<std::size_t>(count));
   }
   buffer_.clear();
@@ -106,7 +158,7 @@ void OutputFile::discard() {
 void OutputFile::fail(const std::string& what) {
   const std::string reason = std::strerror(errno);
   discard();
-  throw FileError(path_, what + ": " + reason);
+  throw FileError(path_ == "/dev/stdout" ? "standard output" : path_, what + ": " + reason);
 }
 
 }  // namespace detp::sim

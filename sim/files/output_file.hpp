@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,8 @@ namespace detp::sim {
 /// and keeps an existing file's permissions. Anything but a regular file (/dev/stdout, /dev/full, a pipe) is written
 /// directly. Every failure throws FileError with the system's reason. (SIGPIPE and SIGXFSZ must be ignored for this to
 /// work.)
+///
+/// Waits for the reader of a pipe; after a stop request 0.15 s, then it throws Stopped.
 class OutputFile {
  public:
   enum class Temporary {
@@ -20,7 +23,7 @@ class OutputFile {
     named     ///< a part file (part_files.hpp)
   };
 
-  explicit OutputFile(const std::string& path, Temporary temporary = Temporary::unnamed);
+  explicit OutputFile(const std::string& path, std::stop_token stop = {}, Temporary temporary = Temporary::unnamed);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -33,7 +36,9 @@ class OutputFile {
 
  private:
   void open_temporary(Temporary temporary);
+  void open_pipe();
   void flush();
+  void wait_for_reader();
   void name_unnamed();
   void discard();
   [[noreturn]] void fail(const std::string& what);
@@ -42,7 +47,9 @@ class OutputFile {
   std::string target_;  ///< path_ with links followed; empty if the target is written directly
   std::string part_;    ///< the file to be renamed to the target; empty for a nameless file
   std::string buffer_;
+  std::stop_token stop_;
   int descriptor_ = -1;
+  bool may_wait_ = false;  ///< a pipe or the like
 };
 
 }  // namespace detp::sim

@@ -1,7 +1,5 @@
 #include "ray_file.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 #include <unordered_map>
@@ -9,9 +7,8 @@
 
 #include "detp/sim/base/kept_memory.hpp"
 #include "file_error.hpp"
-#include "output_file.hpp"
 #include "ray_row.hpp"
-#include "writing_check.hpp"
+#include "table_writer.hpp"
 
 namespace detp::sim {
 namespace {
@@ -67,17 +64,17 @@ RayFile read_rays(const std::string& path, std::stop_token stop) {
 }
 
 void write_rays(const std::string& path, const PathRays& paths, const std::stop_token& stop) {
-  WritingCheck check(path, paths.rays.size(), "rays", stop);
-  OutputFile file(path);
-  const bool photons = !paths.photons.empty();
-  const bool landings = !paths.landings.empty();
-  file.write(fmt::format("ox,oy,oz,dx,dy,dz,length,power{}{}\n", photons ? ",photon" : "", landings ? ",landing" : ""));
+  std::vector<std::string_view> columns{"ox", "oy", "oz", "dx", "dy", "dz", "length", "power"};
+  if (!paths.photons.empty()) columns.emplace_back("photon");
+  if (!paths.landings.empty()) columns.emplace_back("landing");
+  TableWriter file(path, columns, paths.rays.size(), "rays", stop);
+  std::vector<double> row;
   for (std::size_t i = 0; i < paths.rays.size(); ++i) {
-    const auto& [origin, direction, ray_length, ray_power] = paths.rays[i];
-    check.next();
-    file.write(fmt::format("{},{},{},{},{},{},{},{}{}{}\n", origin.x, origin.y, origin.z, direction.x, direction.y,
-                           direction.z, ray_length, ray_power, photons ? fmt::format(",{}", paths.photons[i]) : "",
-                           landings ? fmt::format(",{}", paths.landings[i]) : ""));
+    const auto& [o, d, length, power] = paths.rays[i];
+    row.assign({o.x, o.y, o.z, d.x, d.y, d.z, length, power});
+    if (!paths.photons.empty()) row.push_back(static_cast<double>(paths.photons[i]));
+    if (!paths.landings.empty()) row.push_back(paths.landings[i]);
+    file.write(row);
   }
   file.commit();
 }

@@ -27,8 +27,8 @@ struct RayFile {
 /// from 0 to 2^53, and a landing < 0.
 [[nodiscard]] RayFile read_rays(const std::string& path, std::stop_token stop = {});
 
-/// Writes rays as CSV with the header ox,oy,oz,dx,dy,dz,length,power, and photon and landing if the paths have them, with
-/// enough digits to read back the same doubles. Throws FileError if the file cannot be written, and Stopped.
+/// Writes rays with the columns ox,oy,oz,dx,dy,dz,length,power, and photon and landing if the paths have them, as CSV or PLY:
+/// table_writer.hpp. The same doubles are read back. Throws FileError if the file cannot be written, and Stopped.
 void write_rays(const std::string& path, const PathRays& paths, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

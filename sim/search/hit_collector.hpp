@@ -46,6 +46,8 @@ class HitCollector {
         own_(0, options.memory),
         blocks_(options.memory) {
     if (options.standard_error) own_.keep_errors();
+    totals().expect_powers(problem.largest_power());
+    unit_ = totals().unit();
     if (totals().empty()) totals().resize(problem.discs().size());
     if (last_block_ == totals().block()) return;
     totals().make_levels(problem.discs().size(), last_block_);
@@ -61,7 +63,7 @@ class HitCollector {
     DiscTotals& sums = all[disc];
     ++sums.hits;
     if (all.keeps_errors())
-      all.photon_sums(disc).add(problem_.photon(ray, first_photon_), dominant_axis(kept.direction), kept.power);
+      all.photon_sums(disc).add(problem_.photon(ray, first_photon_), dominant_axis(kept.direction), kept.power, unit_);
     sums.power[dominant_axis(kept.direction)] += kept.power;
     ++kept_;
     if (options_.pairs) add_pair(outcome_.pairs, {ray, disc});
@@ -123,7 +125,7 @@ class HitCollector {
     Totals& all = totals();
     for (std::uint32_t disc = 0; disc < blocks_.size(); ++disc) fold(disc, last_block_);
     all.begin_block(last_block_);
-    for (std::size_t disc = 0; all.keeps_errors() && disc < all.size(); ++disc) all.photon_sums(disc).close();
+    for (std::size_t disc = 0; all.keeps_errors() && disc < all.size(); ++disc) all.photon_sums(disc).close(unit_);
     all.add_rays(problem_);
   }
 
@@ -137,6 +139,7 @@ class HitCollector {
   Totals own_;
   std::pmr::vector<std::uint64_t> blocks_;  ///< block under way of each disc; empty if all photons are in one
   std::uint64_t kept_ = 0;
+  double unit_ = 1;  ///< of the totals
 };
 
 }  // namespace detp::sim

@@ -23,16 +23,21 @@ void resize_results(std::size_t discs, bool errors, Outcome& outcome) {
   outcome.upper_bound.resize(errors ? discs : 0);
 }
 
-PowerError error_of_power(double power, double squares, const PhotonSums& sums, double heaviest, double photons) {
-  const bool in_range = squares > 0 && squares < unbounded;  // not so if powers are extreme, or if nothing hits
-  if (!in_range || squares * (1 + 1e-9) < fewest_photons * sums.largest * sums.largest) {
-    const double as_heavy = in_range ? squares / (heaviest * heaviest) : sums.photons;
+PowerError error_of_power(double power, const ErrorSums& sums, double heaviest, double photons) {
+  constexpr double least = 0x1p-900;  // smaller sums may lack terms that vanished
+  const double squares = sums.squares;
+  const double unit = std::ldexp(1.0, sums.unit_exponent);
+  const double w = unit * heaviest;
+  const double largest = unit * sums.largest;
+  const bool in_range = squares > least && squares < unbounded;  // not so if nothing hits
+  if (!in_range || squares * (1 + 1e-9) < fewest_photons * largest * largest) {
+    const double as_heavy = in_range ? squares / (w * w) : sums.photons;
     const double most = fewest_photons - 1;
     const auto k = static_cast<std::size_t>(std::min(most, std::ceil(as_heavy - 1e-9)));
     return {unbounded, power + heaviest * more_photons[k]};
   }
-  const double variance = std::max(0.0, squares - power * power / photons) * photons / (photons - 1);
-  const double error = std::sqrt(variance);
+  const double variance = std::max(0.0, squares - (unit * power) * (unit * power) / photons) * photons / (photons - 1);
+  const double error = std::sqrt(variance) / unit;
   return {error, power + one_sided * error};
 }
 
@@ -40,8 +45,7 @@ DiscResult result_of(const FoundSums& found, const ErrorSums* errors, double hea
   const double area = std::numbers::pi * found.radius * found.radius;
   DiscResult result{.hits = found.hits, .irradiance = found.power / area};
   if (errors == nullptr) return result;
-  const PhotonSums sums{.largest = errors->largest, .photons = errors->photons};
-  const PowerError error = error_of_power(found.power, errors->squares, sums, heaviest, photons);
+  const PowerError error = error_of_power(found.power, *errors, heaviest, photons);
   result.standard_error = error.standard_error / area;
   result.upper_bound = error.upper_bound / area;
   return result;
@@ -51,7 +55,8 @@ void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, con
                  const PhotonSums* photons, double heaviest, Outcome& outcome) {
   const FoundSums found{sums.hits, totals.power(number, sums), disc.radius};
   ErrorSums errors;
-  if (photons != nullptr) errors = {totals.squares(number, *photons), photons->largest, photons->photons};
+  if (photons != nullptr)
+    errors = {totals.squares(number, *photons), photons->largest, photons->photons, totals.unit_exponent()};
   const DiscResult result =
       result_of(found, photons != nullptr ? &errors : nullptr, heaviest, static_cast<double>(totals.photons()));
   outcome.hits[number] = result.hits;

@@ -54,9 +54,10 @@ struct FoundSums {
 
 /// What its standard error needs.
 struct ErrorSums {
-  double squares = 0;  ///< Σ x²
+  double squares = 0;  ///< Σ (u x)²
   double largest = 0;  ///< largest x
   std::uint32_t photons = 0;
+  std::int32_t unit_exponent = 0;  ///< of u
 };
 
 struct DiscResult {
@@ -75,10 +76,8 @@ struct PowerError {
   double upper_bound = 0;
 };
 
-/// Of the sum P of what `photons` emitted photons bring. `squares` is Σ x², `sums` has the largest x and the number of photons that
-/// brought something, `heaviest` is w.
-[[nodiscard]] PowerError error_of_power(double power, double squares, const PhotonSums& sums, double heaviest,
-                                        double photons);
+/// Of the sum P of what `photons` emitted photons bring. `heaviest` is w.
+[[nodiscard]] PowerError error_of_power(double power, const ErrorSums& sums, double heaviest, double photons);
 
 /// w, from the sums of all discs and the largest power of a ray.
 [[nodiscard]] double heaviest_photon(std::span<const PhotonSums> discs, double largest_power);

@@ -1,17 +1,28 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
 
 namespace detp::sim {
 
+/// u = 2^e, by which powers are multiplied before they are squared, so that squares neither overflow nor vanish: 1 unless the largest
+/// power of a ray is beyond 2^256 or below 2^-256. Returns e. Powers of two change no digit of a result.
+[[nodiscard]] inline int unit_exponent(double largest_power) {
+  constexpr int usual = 256;
+  constexpr int extreme = 640;  // the middle between 256 and 1024
+  if (!(largest_power > 0)) return 0;
+  const int exponent = std::ilogb(largest_power);
+  return exponent > usual ? -extreme : exponent < -usual ? extreme : 0;
+}
+
 /// What the standard error of one disc's irradiance needs: sums over the photons that hit the disc. All rays of a photon's
 /// path are one photon: they share its fate, so their powers on one disc are added before anything is squared.
 struct PhotonSums {
-  /// Σ x² over complete photons of the block under way, x a photon's power on this disc: three sums, by the dominant axis of
-  /// the photon's first ray that hits, each in the order of the photons
+  /// Σ (u x)² over complete photons of the block under way, x a photon's power on this disc, u the unit of its Totals: three sums, by
+  /// the dominant axis of the photon's first ray that hits, each in the order of the photons
   glm::dvec3 squares{0.0};
   double open = 0;                   ///< power of the photon under way
   double largest = 0;                ///< largest power of one photon on this disc
@@ -23,9 +34,9 @@ struct PhotonSums {
   static constexpr std::uint32_t most_photons = std::uint32_t{1} << 31;
 
   /// Adds a ray of a photon. Rays must come in the order of their numbers, so that those of a photon follow one another.
-  void add(std::uint64_t number, int dominant_axis, double power) {
+  void add(std::uint64_t number, int dominant_axis, double power, double unit) {
     if (number != photon) {
-      close();
+      close(unit);
       photon = number;
       axis = static_cast<std::uint32_t>(dominant_axis);
     }
@@ -33,9 +44,9 @@ struct PhotonSums {
   }
 
   /// Completes the photon under way.
-  void close() {
+  void close(double unit) {
     if (photon == no_photon) return;
-    squares[static_cast<int>(axis)] += open * open;
+    squares[static_cast<int>(axis)] += (unit * open) * (unit * open);
     largest = std::max(largest, open);
     add_photons(1);
     open = 0;

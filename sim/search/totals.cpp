@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
+#include <utility>
 
 #include "problem.hpp"
 
@@ -10,6 +11,10 @@ namespace detp::sim {
 namespace {
 
 double sum_of(const glm::dvec3& by_axis) { return (by_axis.x + by_axis.y) + by_axis.z; }
+
+glm::dvec3 scaled(const glm::dvec3& squares, int exponent) {
+  return {std::ldexp(squares.x, exponent), std::ldexp(squares.y, exponent), std::ldexp(squares.z, exponent)};
+}
 
 }  // namespace
 
@@ -27,7 +32,8 @@ Totals::Totals(const Totals& other, Memory* memory)
       block_(other.block_),
       rays_(other.rays_),
       photons_(other.photons_),
-      largest_power_(other.largest_power_) {
+      largest_power_(other.largest_power_),
+      unit_exponent_(other.unit_exponent_) {
   const auto copy = [&](const std::pmr::vector<Level>& from, std::pmr::vector<Level>& to) {
     for (const Level& level : from)
       to.push_back({std::pmr::vector<double>(level.power, memory), std::pmr::vector<double>(level.squares, memory)});
@@ -44,6 +50,16 @@ void Totals::resize(std::size_t discs) {
 void Totals::keep_errors() {
   keeps_errors_ = true;
   photon_sums_.resize(discs_.size());
+}
+
+void Totals::expect_powers(double largest_power) {
+  const int exponent = sim::unit_exponent(std::max(largest_power, largest_power_));
+  const int change = 2 * (exponent - std::exchange(unit_exponent_, exponent));
+  if (change == 0) return;
+  for (PhotonSums& sums : photon_sums_) sums.squares = scaled(sums.squares, change);
+  for (std::pmr::vector<Level>* const levels : {&levels_, &left_})
+    for (Level& level : *levels)
+      for (double& sum : level.squares) sum = std::ldexp(sum, change);
 }
 
 void Totals::make_levels(std::size_t discs, std::uint64_t last_block) {
@@ -95,7 +111,7 @@ void Totals::fold(std::size_t disc, std::uint64_t from, std::uint64_t to, DiscTo
   add_blocks(&Level::power, disc, from, to, sum_of(sums.power));
   sums.power = glm::dvec3{0.0};
   if (photons == nullptr) return;
-  photons->close();
+  photons->close(unit());
   add_blocks(&Level::squares, disc, from, to, sum_of(photons->squares));
   photons->squares = glm::dvec3{0.0};
 }
@@ -134,8 +150,8 @@ std::vector<Totals::Subtree> Totals::subtrees() const {
 }
 
 Totals::Shape Totals::shape() const {
-  return {discs_.size(),  origin_,        block_, rays_, photons_, keeps_errors_ ? std::uint64_t{1} : 0,
-          largest_power_, photon_blocks()};
+  return {discs_.size(),  origin_,        block_,         rays_, photons_, keeps_errors_ ? std::uint64_t{1} : 0,
+          largest_power_, unit_exponent_, photon_blocks()};
 }
 
 Totals Totals::of_shape(const Shape& shape) {
@@ -145,6 +161,7 @@ Totals Totals::of_shape(const Shape& shape) {
   made.rays_ = shape.rays;
   made.photons_ = shape.photons;
   made.largest_power_ = shape.largest_power;
+  made.unit_exponent_ = shape.unit_exponent;
   made.keeps_errors_ = shape.errors != 0;
   made.blocks_ = shape.blocks;
   made.resize(shape.discs);
@@ -157,12 +174,14 @@ void Totals::append(const Totals& later) {
       later.photon_blocks() != photon_blocks())
     throw std::invalid_argument("sums of photons do not follow one another");
   make_levels(discs_.size(), later.block_);
+  expect_powers(later.largest_power_);
+  const int change = 2 * (unit_exponent_ - later.unit_exponent_);
   for (const Subtree& subtree : later.subtrees()) {
     const Level& from = (subtree.left ? later.left_ : later.levels_)[subtree.level];
     for (std::size_t disc = 0; disc < discs_.size(); ++disc)
       add_subtree(&Level::power, disc, subtree.start, subtree.level, from.power[disc]);
     for (std::size_t disc = 0; disc < from.squares.size(); ++disc)
-      add_subtree(&Level::squares, disc, subtree.start, subtree.level, from.squares[disc]);
+      add_subtree(&Level::squares, disc, subtree.start, subtree.level, std::ldexp(from.squares[disc], change));
   }
   for (std::size_t disc = 0; disc < discs_.size(); ++disc) {
     discs_[disc].hits += later.discs_[disc].hits;
@@ -171,8 +190,8 @@ void Totals::append(const Totals& later) {
   for (std::size_t disc = 0; disc < photon_sums_.size(); ++disc) {
     PhotonSums& sums = photon_sums_[disc];
     const PhotonSums& more = later.photon_sums_[disc];
-    sums.close();
-    sums.squares = more.squares;
+    sums.close(unit());
+    sums.squares = scaled(more.squares, change);
     sums.largest = std::max(sums.largest, more.largest);
     sums.add_photons(more.photons);
   }

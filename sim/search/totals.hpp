@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory_resource>
@@ -55,6 +56,11 @@ class Totals {
   PhotonSums& photon_sums(std::size_t disc) { return photon_sums_[disc]; }
   const PhotonSums& photon_sums(std::size_t disc) const { return photon_sums_[disc]; }
   [[nodiscard]] std::span<const PhotonSums> photon_sums() const { return photon_sums_; }
+  /// To be called before each search, with the largest power of its rays: changes the unit of the squares if necessary.
+  void expect_powers(double largest_power);
+  /// u, of PhotonSums::squares and `squares`.
+  [[nodiscard]] double unit() const { return std::ldexp(1.0, unit_exponent_); }
+  [[nodiscard]] int unit_exponent() const { return unit_exponent_; }
 
   /// Number of the block under way.
   [[nodiscard]] std::uint64_t block() const { return block_; }
@@ -83,6 +89,7 @@ class Totals {
   struct Shape {
     std::uint64_t discs = 0, origin = 0, block = 0, rays = 0, photons = 0, errors = 0;
     double largest_power = 0;
+    int unit_exponent = 0;
     PhotonBlocks blocks;
   };
   [[nodiscard]] Shape shape() const;
@@ -101,7 +108,7 @@ class Totals {
 
   /// Power of all rays that hit the disc, `sums` being those of the block under way.
   [[nodiscard]] double power(std::size_t disc, const DiscTotals& sums) const;
-  /// Sum of the squared powers of the photons that hit the disc; `sums` as above. No photon may be under way.
+  /// Sum of the squared powers of the photons that hit the disc, times u²; `sums` as above. No photon may be under way.
   [[nodiscard]] double squares(std::size_t disc, const PhotonSums& sums) const;
 
   /// To be called after each search: its rays, photons and largest power.
@@ -148,6 +155,7 @@ class Totals {
   std::uint64_t rays_ = 0;
   std::uint64_t photons_ = 0;
   double largest_power_ = 0;
+  int unit_exponent_ = 0;
 };
 
 }  // namespace detp::sim

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "soundness.hpp"
@@ -83,6 +84,7 @@ std::vector<Disc> read_discs(const DiscsView& view) {
     require_array("normals", view.normals);
     require_array("radii", view.radii);
   }
+  require_memory("the discs", static_cast<double>(view.count) * sizeof(Disc));
   std::vector<Disc> discs(view.count);
   for (std::size_t i = 0; i < view.count; ++i)
     discs[i] = normalised(Disc{vector_at(view.centres, i), vector_at(view.normals, i), view.radii[i]});

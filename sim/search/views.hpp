@@ -115,7 +115,7 @@ void read_rays(const RaysView& view, std::size_t first, std::span<Ray> rays, int
 /// the first photon alone has more rays, the end of that photon.
 [[nodiscard]] std::size_t end_of_piece(const RaysView& view, std::size_t first, std::size_t most);
 
-/// Copies the discs and normalises their normals, as read_rays does.
+/// Copies the discs and normalises their normals, as read_rays does. Throws std::length_error if they would not fit in memory.
 [[nodiscard]] std::vector<Disc> read_discs(const DiscsView& view);
 
 }  // namespace detp::sim

@@ -47,7 +47,7 @@ void PartResults::add(const PartOfDiscs& part, const Totals& totals, std::span<c
     sums_.append(std::span(&one, 1));
     if (!errors_) continue;
     const PhotonSums& photons = totals.photon_sums(i);
-    const Errors error{number, {totals.squares(i, photons), photons.largest, photons.photons}};
+    const Errors error{number, {totals.squares(i, photons), photons.largest, photons.photons, totals.unit_exponent()}};
     error_sums_.append(std::span(&error, 1));
   }
   pairs_.begin_run();

@@ -122,6 +122,22 @@ class Calls(unittest.TestCase):
         self.assertFalse(far.reached)
         self.assertGreater(far.share_bound or 0, 0)
 
+    def test_numbers_that_a_function_returns_are_checked(self) -> None:
+        rays = detp.Rays(*some_rays(1000))
+        plan = detp.plan(detp.Discs(*some_discs(500), 0.2), rays)
+        for wrong in (-1.0, 0.0, float("nan"), float("inf")):
+            with self.assertRaisesRegex(ValueError, "scale"):
+                plan.search_until(lambda wanted: detp.Batch(rays, scale=wrong), 0.05)
+        for wrong in (-5.0, float("nan"), float("inf")):
+            with self.assertRaisesRegex(ValueError, "photons"):
+                plan.search_until(lambda wanted: detp.Batch(rays, photons=wrong), 0.05)
+            with self.assertRaisesRegex(ValueError, "most rays"):
+                plan.search_until(lambda wanted: rays, 0.05, most_rays=wrong)
+        with self.assertRaises(TypeError):
+            plan.search_until(lambda wanted: detp.Batch(rays, scale="one"), 0.05)  # type: ignore[arg-type]
+        with self.assertRaisesRegex(ValueError, "for the command alone"):
+            detp.ask("--help")
+
     def test_numbers_alone(self) -> None:
         numbers: Dict[str, Any] = {"rays": 1e5, "samples": 1e4, "disc_radius": 0.02, "scene_side": 2}
         words = ["--rays", "100000", "--samples", "10000", "--disc-radius", "0.02", "--scene-side", "2"]

@@ -12,6 +12,7 @@
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/input_file.hpp"
 #include "detp/sim/files/output_file.hpp"
+#include "detp/validate/base/checksum.hpp"
 #include "detp/validate/base/digest.hpp"
 
 namespace detp::validate {
@@ -19,6 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int version = 2;  // of the file
 constexpr int methods = 1;  // change it whenever make_reference gives other values
 constexpr std::string_view reference_schema = "detp.reference";
 constexpr std::size_t most_bytes_of_reference = std::size_t{1} << 30;
@@ -79,6 +81,13 @@ void check_key(const Json& stored, const ReferenceKey& wanted, const std::string
                             shortened(stored.at(name).dump(), 40), value.dump()));
 }
 
+/// Of a file's members, without its checksum.
+std::string checksum_of(Json members, const Json& samples) {
+  members.erase("checksum");
+  members["samples"] = samples;
+  return checksum(members);
+}
+
 ReferenceKind kind_named(const std::string& text) {
   for (const ReferenceKind kind : {ReferenceKind::known, ReferenceKind::backward, ReferenceKind::landings})
     if (name(kind) == text) return kind;
@@ -116,24 +125,26 @@ ReferenceKey reference_key(const sim::Scene& scene, const ReferenceOptions& opti
 }
 
 void write_reference(const std::string& path, const Reference& reference, const ReferenceKey& key) {
-  const Json head{{"schema", {{"name", reference_schema}, {"version", 1}}},
-                  {"key", key_json(key)},
-                  {"name", reference.scene},
-                  {"kind", name(reference.kind)},
-                  {"paths", reference.paths},
-                  {"error", reference.error()},
-                  {"seconds", reference.seconds},
-                  {"columns", {"x", "y", "z", "nx", "ny", "nz", "irradiance", "variance"}}};
+  Json head{{"schema", {{"name", reference_schema}, {"version", version}}},
+            {"key", key_json(key)},
+            {"name", reference.scene},
+            {"kind", name(reference.kind)},
+            {"paths", reference.paths},
+            {"error", reference.error()},
+            {"seconds", reference.seconds},
+            {"columns", {"x", "y", "z", "nx", "ny", "nz", "irradiance", "variance"}}};
+  Json samples = Json::array();
+  for (std::size_t i = 0; i < reference.samples.size(); ++i) {
+    const sim::Sample& sample = reference.samples[i];
+    const auto& [p, n] = std::pair(sample.position, sample.normal);
+    samples.push_back({p.x, p.y, p.z, n.x, n.y, n.z, reference.irradiance[i], reference.variance[i]});
+  }
+  head["checksum"] = checksum_of(head, samples);
   sim::OutputFile file(path);
   std::string text = head.dump(2);
   text.erase(text.rfind('\n'));
   file.write(text + ",\n  \"samples\": [");
-  for (std::size_t i = 0; i < reference.samples.size(); ++i) {
-    const sim::Sample& sample = reference.samples[i];
-    const auto& [p, n] = std::pair(sample.position, sample.normal);
-    const Json row{p.x, p.y, p.z, n.x, n.y, n.z, reference.irradiance[i], reference.variance[i]};
-    file.write((i == 0 ? "\n    " : ",\n    ") + row.dump());
-  }
+  for (std::size_t i = 0; i < samples.size(); ++i) file.write((i == 0 ? "\n    " : ",\n    ") + samples[i].dump());
   file.write("\n  ]\n}\n");
   file.commit();
 }
@@ -141,7 +152,7 @@ void write_reference(const std::string& path, const Reference& reference, const 
 Reference read_reference(const std::string& path, const ReferenceKey& key) {
   try {
     const Json json = Json::parse(sim::read_file(path, most_bytes_of_reference));
-    if (json.at("schema").at("name") != reference_schema || json.at("schema").at("version") != 1)
+    if (json.at("schema").at("name") != reference_schema || json.at("schema").at("version") != version)
       throw sim::FileError(path, "is not a reference of this version of detp");
     check_key(json.at("key"), key, path);
     Reference reference{
@@ -151,6 +162,8 @@ Reference read_reference(const std::string& path, const ReferenceKey& key) {
     for (const Json& numbers : json.at("samples")) add_sample(numbers, reference);
     if (reference.samples.size() != key.samples)
       throw std::invalid_argument(fmt::format("it has {} samples, not {}", reference.samples.size(), key.samples));
+    if (json.at("checksum") != checksum_of(json, json.at("samples")))
+      throw sim::FileError(path, "was altered: it does not fit its checksum; give another file, or delete this one");
     return reference;
   } catch (const nlohmann::json::exception& error) {
     throw sim::FileError(path, fmt::format("is not a reference: {}", shortened(error.what(), 150)));

@@ -202,8 +202,8 @@ DETP_API detp_status detp_pairs(const detp_scratch *scratch, uint64_t *offsets, 
 /* ---- searches until an error is reached ---- */
 
 /* Makes the next rays, of whole photons, about `wanted` of them: sets what it needs of *rays (initialised, without rays), and *photons, the
- * photons emitted, with those that gave no ray (0: as many as rays). The irradiance of these rays times *scale (1) is that as if they were all
- * photons. The arrays must stay until the next call, or until the search ends. Returns 0; 1 if there are no more rays; else the search is
+ * photons emitted, with those that gave no ray (0: as many as rays; at least as many as the rays have photons). The irradiance of these rays times *scale (1) is that as if they were all
+ * photons; *scale must be > 0 and finite. The arrays must stay until the next call, or until the search ends. Returns 0; 1 if there are no more rays; else the search is
  * stopped. Photons of different calls are independent. */
 typedef int (*detp_next_rays)(void *user, uint64_t wanted, detp_rays *rays, double *photons, double *scale);
 

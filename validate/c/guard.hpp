@@ -8,6 +8,7 @@
 #include <string>
 
 #include "detp.h"
+#include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/files/file_error.hpp"
 
@@ -39,8 +40,10 @@ detp_status guarded(detp_error* error, const Work& work) noexcept {
     return failed(DETP_NO_MEMORY, length.what(), error);
   } catch (const std::overflow_error& length) {
     return failed(DETP_NO_MEMORY, length.what(), error);
-  } catch (const std::bad_alloc& memory) {
+  } catch (const sim::OutOfMemory& memory) {
     return failed(DETP_NO_MEMORY, memory.what(), error);
+  } catch (const std::bad_alloc&) {
+    return failed(DETP_NO_MEMORY, "out of memory", error);
   } catch (const std::exception& other) {
     return failed(DETP_INTERNAL, other.what(), error);
   } catch (...) {

@@ -50,7 +50,8 @@ detp_status detp_plan_create(const detp_discs* discs, const detp_rays* rays, con
                                  .stop = watch.token(),
                                  .progress = watch.report()};
     if (own.costs != nullptr) wanted.costs = own.costs->table;
-    made = handle_of(validate::plan(discs_view, rays_view, wanted), weights_of(discs_view));
+    validate::Plan planned = validate::plan(discs_view, rays_view, wanted);
+    made = handle_of(std::move(planned), weights_of(discs_view));
   });
 }
 

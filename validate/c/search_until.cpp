@@ -1,3 +1,5 @@
+#include "detp/model/vocabulary/checks.hpp"
+#include "detp/sim/base/memory.hpp"
 #include "detp/validate/stopping/execute_until.hpp"
 #include "guard.hpp"
 #include "handles.hpp"
@@ -22,7 +24,9 @@ class CallersRays {
     if (answer == 1) return std::nullopt;
     if (answer != 0) throw sim::Stopped("the function for the next rays stopped the search", {});
     const sim::RaysView view = c::view_of(&rays);
-    if (view.count == 0 && !(photons > 0)) throw std::invalid_argument("the next rays: there are none, and no photons");
+    require_non_negative("the next rays: number of photons", photons);
+    if (view.count == 0 && photons == 0) throw std::invalid_argument("the next rays: there are none, and no photons");
+    sim::require_memory("the next rays", static_cast<double>(view.count) * sizeof(sim::Ray));
     rays_.resize(view.count);
     sim::read_rays(view, 0, rays_, threads_);
     batch.rays = sim::PathRays(rays_);

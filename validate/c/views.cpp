@@ -20,6 +20,13 @@ sim::VectorsView typed_vectors(const detp_vectors& vectors) {
   return {at(vectors.x), at(vectors.y), at(vectors.z), vectors.stride != 0 ? vectors.stride : sizeof(T)};
 }
 
+/// Throws std::length_error if no process could have arrays of so many elements.
+void check_count(std::size_t count, const char* name) {
+  constexpr std::size_t most = std::size_t{1} << 43;  // of 12 bytes or more, in addresses of 47 bits
+  if (count > most)
+    throw std::length_error(std::string(name) + ": count must be at most 2^43 (got " + std::to_string(count) + ")");
+}
+
 sim::VectorsView vectors_of(const detp_vectors& vectors, std::size_t count, const std::string& name) {
   check_type(vectors.type, name);
   if (count > 0 && vectors.x == nullptr) throw std::invalid_argument(name + ": x is null");
@@ -40,6 +47,7 @@ sim::NumbersView numbers_of(const detp_numbers& numbers, const std::string& name
 
 sim::RaysView view_of(const detp_rays* given_rays) {
   const detp_rays rays = known(given_rays, "rays");
+  check_count(rays.count, "rays");
   sim::RaysView view{.count = rays.count,
                      .origins = vectors_of(rays.origins, rays.count, "rays.origins"),
                      .directions = vectors_of(rays.directions, rays.count, "rays.directions"),
@@ -51,6 +59,7 @@ sim::RaysView view_of(const detp_rays* given_rays) {
 
 sim::DiscsView view_of(const detp_discs* given_discs) {
   const detp_discs discs = known(given_discs, "discs");
+  check_count(discs.count, "discs");
   return {.count = discs.count,
           .centres = vectors_of(discs.centres, discs.count, "discs.centres"),
           .normals = vectors_of(discs.normals, discs.count, "discs.normals"),

@@ -14,6 +14,7 @@
 #include "calibration_key.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/input_file.hpp"
+#include "detp/validate/base/checksum.hpp"
 
 namespace detp::validate {
 namespace {
@@ -65,7 +66,7 @@ CostTable costs_of(const Json& json, Engine engine, const CalibrationQuality& qu
   const std::string engine_name(name(engine));
   const Json& units = json.at("costs").at(engine_name);
   const Json& threads = json.at("threads").at(engine_name);
-  const Json errors = json.value("relative_errors", Json::object()).value(engine_name, Json::object());
+  const Json errors = json.at("relative_errors").at(engine_name);
   for (const Technique technique : all_techniques) {
     const std::string key(name(technique));
     if (record_of(technique).exact || units.contains(key))
@@ -110,6 +111,15 @@ Json threads_json(const CostTable& costs) {
   return json;
 }
 
+/// Of what a calibration has. The result of detp calibrate, which is read too, has more.
+std::string checksum_of(const Json& json) {
+  Json members;
+  for (const char* name :
+       {"key", "date", "left_out_median_error", "processor_share", "relative_errors", "costs", "threads"})
+    members[name] = json.at(name);
+  return checksum(members);
+}
+
 void check_version(const Json& json, const std::string& path) {
   if (json.at("schema").at("name") != schema || json.at("schema").at("version") != 1)
     throw sim::FileError(path, "is not a calibration of this version of detp; make one with detp calibrate");
@@ -120,10 +130,18 @@ void check_version(const Json& json, const std::string& path) {
                                            found, cost_model));
 }
 
+/// A file that detp did not make.
+bool is_foreign(const std::string& path) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown) || std::filesystem::is_empty(path, unknown)) return false;
+  const Json json = Json::parse(sim::read_file(path, most_bytes), nullptr, false);
+  return !json.is_object() || json.value("schema", Json::object()).value("name", Json()) != schema;
+}
+
 }  // namespace
 
 std::string calibration_text(const Calibration& calibration) {
-  const Json json{
+  Json json{
       {"schema", {{"name", schema}, {"version", 1}}},
       {"key", to_json(this_machine())},
       {"date", today()},
@@ -133,6 +151,7 @@ std::string calibration_text(const Calibration& calibration) {
        {{"simd", errors_json(calibration.simd.costs)}, {"plain", errors_json(calibration.plain.costs)}}},
       {"costs", {{"simd", to_json(calibration.simd.costs)}, {"plain", to_json(calibration.plain.costs)}}},
       {"threads", {{"simd", threads_json(calibration.simd.costs)}, {"plain", threads_json(calibration.plain.costs)}}}};
+  json["checksum"] = checksum_of(json);
   return json.dump(2) + "\n";
 }
 
@@ -147,6 +166,7 @@ std::string save_calibration(const std::string& path, const Calibration& calibra
     if (const auto stored = find_calibration(path); stored && stored->is_better_than(calibration))
       return fmt::format("this calibration is doubtful: {}; that of {}, whose median error is {:.2g} %, is kept", doubt,
                          stored->date, 100 * stored->left_out_median_error);
+  if (is_foreign(path)) return fmt::format("{} is not a calibration and stays as it is; delete it", path);
   write_calibration(path, calibration);
   return "";
 }
@@ -182,10 +202,14 @@ StoredCalibration parse_calibration(const std::string& text, const std::string& 
     stored.date = json.at("date");
     stored.left_out_median_error = json.at("left_out_median_error");
     require_possible("left_out_median_error", stored.left_out_median_error, most_error);
-    stored.processor_share = json.value("processor_share", 1.0);  // earlier files do not have it
+    stored.processor_share = json.at("processor_share");
     require_share("processor_share", stored.processor_share);
     stored.plain = costs_of(json, Engine::plain, stored);
     stored.simd = costs_of(json, Engine::simd, stored);
+    if (json.value("checksum", "") != checksum_of(json))
+      throw sim::FileError(path,
+                           "was altered, or is of an earlier version of detp: it does not fit its checksum; make "
+                           "a new one with detp calibrate");
     return stored;
   } catch (const nlohmann::json::exception& error) {
     throw sim::FileError(

@@ -28,8 +28,8 @@ struct StoredCalibration : CalibrationQuality {
 /// Writes the file, and its folder if necessary. Throws sim::FileError.
 void write_calibration(const std::string& path, const Calibration& calibration);
 
-/// The same, but a doubtful calibration does not replace a better one of this machine and program. Returns why it was not
-/// written; "" if it was.
+/// The same, but a doubtful calibration does not replace a better one of this machine and program, and none replaces another
+/// program's file. Returns why it was not written; "" if it was.
 std::string save_calibration(const std::string& path, const Calibration& calibration);
 
 /// Throws sim::FileError if the file cannot be read, if it is not a calibration, or if an older or newer program wrote it.

@@ -2,20 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
 #include <utility>
 
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/files/input_file.hpp"
 #include "detp/sim/files/output_file.hpp"
+#include "detp/validate/base/checksum.hpp"
 
 namespace detp::validate {
 namespace {
 
 constexpr std::string_view schema = "detp.checkpoint";
-constexpr int version = 3;
 constexpr std::size_t most_bytes = std::size_t{1} << 32;
 constexpr double times_cheaper = 100;
 constexpr double first_seconds = 0.1;
+
+/// Each file of this version begins so.
+std::string head() { return fmt::format(R"({{"schema":{{"name":"{}","version":{}}},)", schema, checkpoint_version); }
 
 std::string words(const nlohmann::json& value) {
   return value.is_string() ? detp::quoted(value.get<std::string>()) : value.dump();
@@ -47,8 +51,10 @@ std::optional<nlohmann::json> CheckpointFile::read(std::stop_token stop) const {
   if (!std::filesystem::exists(path_, unknown) && !unknown) return std::nullopt;
   try {
     nlohmann::json json = nlohmann::json::parse(sim::read_file(path_.string(), most_bytes, std::move(stop)));
-    if (json.at("schema").at("name") != schema || json.at("schema").at("version") != version)
+    if (json.at("schema").at("name") != schema || json.at("schema").at("version") != checkpoint_version)
       throw sim::FileError(path_.string(), "is not a checkpoint of this version of detp");
+    if (json.at("checksum") != checksum(json.at("work"), json.at("key"), json.at("state")))
+      throw damaged("it was altered, and does not fit its checksum");
     if (json.at("work") != work_)
       throw sim::FileError(path_.string(),
                            fmt::format("is a checkpoint of {}, not of {}", words(json.at("work")), work_));
@@ -62,13 +68,25 @@ std::optional<nlohmann::json> CheckpointFile::read(std::stop_token stop) const {
 
 void CheckpointFile::write(const nlohmann::json& state) {
   const sim::Stopwatch watch;
-  const nlohmann::json json{
-      {"schema", {{"name", schema}, {"version", version}}}, {"work", work_}, {"key", key_}, {"state", state}};
   sim::OutputFile file(path_.string());
-  file.write(json.dump() + "\n");
+  file.write(head() + fmt::format(R"("checksum":"{}","work":{},"key":{},"state":)", checksum(work_, key_, state),
+                                  nlohmann::json(work_).dump(), key_.dump()));
+  file.write(state.dump());
+  file.write("}\n");
   file.commit();
   write_seconds_ = watch.seconds();
   since_last_ = {};
+}
+
+void require_replaceable(const std::string& path) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown) || std::filesystem::is_empty(path, unknown)) return;
+  sim::InputFile file(path);
+  static_cast<void>(file.fetch(head().size()));
+  if (!file.buffered().starts_with(head()))
+    throw sim::FileError(path,
+                         "would be replaced, but is not a checkpoint of this version of detp; delete it, or give "
+                         "--checkpoint another file");
 }
 
 bool CheckpointFile::due() const {

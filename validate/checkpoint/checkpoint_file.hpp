@@ -12,6 +12,8 @@
 /// What long work has found so far, in a JSON file.
 namespace detp::validate {
 
+inline constexpr int checkpoint_version = 4;
+
 class CheckpointFile {
  public:
   /// `work` names the kind of work, as "map". `key` is an object of numbers and words: all that decides what the work finds, as
@@ -19,7 +21,7 @@ class CheckpointFile {
   CheckpointFile(std::filesystem::path path, std::string work, nlohmann::json key);
 
   /// The state in the file; nothing if there is no file. Throws sim::FileError, with the reason, if it is not a checkpoint of this version,
-  /// is damaged, or was made by other work; sim::Stopped within 0.1 s of a stop request.
+  /// was altered, or was made by other work; sim::Stopped within 0.1 s of a stop request.
   [[nodiscard]] std::optional<nlohmann::json> read(std::stop_token stop = {}) const;
 
   /// Replaces the file as a whole, so that it is complete at any moment. Numbers must be finite: JSON has no others. Throws
@@ -39,5 +41,9 @@ class CheckpointFile {
   sim::Stopwatch since_last_;
   double write_seconds_ = 0;
 };
+
+/// Throws sim::FileError, before any work, if there is a file which is no checkpoint of this version: work that begins anew would
+/// replace it. An empty file may be replaced.
+void require_replaceable(const std::string& path);
 
 }  // namespace detp::validate

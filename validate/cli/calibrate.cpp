@@ -222,6 +222,7 @@ Result run_calibrate(const CalibrateOptions& options, const CommonOptions& commo
                  {"processor_share", calibration.processor_share},
                  {"key", stored["key"]},
                  {"date", stored["date"]},
+                 {"checksum", stored["checksum"]},
                  {"saved", saved.path}};
   result.text = to_text(calibration, saved, common.screen());
   result.csv = to_csv(calibration);

@@ -13,7 +13,7 @@
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/sim/ranks/failures.hpp"
-#include "detp/validate/cli/options/outputs.hpp"
+#include "detp/validate/cli/options/command_files.hpp"
 #include "detp/validate/cli/text/messages.hpp"
 #include "envelope.hpp"
 #include "interruption.hpp"
@@ -31,15 +31,12 @@ void require_finite_numbers(const Json& json) {
     for (const Json& part : json) require_finite_numbers(part);
 }
 
-/// Writes to the file `output`, or to stdout without one.
-void print(const std::string& text, const std::optional<std::string>& output) {
-  if (output) {
-    sim::OutputFile file(*output);
-    file.write(text);
-    file.commit();
-  } else {
-    write_result(text);
-  }
+/// Writes to the file `output`, or to stdout without one. A time limit does not end the wait for a reader of stdout.
+void print(const std::string& text, const std::optional<std::string>& output, const Interruption& interruption) {
+  if (!output) return write_result(text, interruption.signal_token());
+  sim::OutputFile file(*output, interruption.token());
+  file.write(text);
+  file.commit();
 }
 
 void set_memory_limit(const std::string& size) {
@@ -54,6 +51,7 @@ void set_memory_limit(const std::string& size) {
 /// Runs the command. If it is stopped before it has a result, says so on stderr and returns stopped_result().
 Result result_of(const Command& command, const CommonOptions& common, const std::stop_token& stop) {
   try {
+    if (common.answers()) check_files(*command.app, common, stop);
     return command.run(common, stop);
   } catch (const sim::Stopped& stopped) {
     static_cast<void>(fail(ExitCode::stopped, stopped.what()));
@@ -63,6 +61,7 @@ Result result_of(const Command& command, const CommonOptions& common, const std:
 
 /// The options of this process. Throws std::invalid_argument if the command works on one process only.
 CommonOptions options_on(World* world, const Command& command, CommonOptions common) {
+  settle_format(*command.app, common);
   if (world == nullptr) return common;
   if (!command.on_ranks)
     throw std::invalid_argument(
@@ -82,11 +81,10 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
   if (common.memory_limit) set_memory_limit(*common.memory_limit);
   const int wanted = sim::thread_count(common.threads);
   const int threads = sim::startable_threads(wanted);
-  if (threads < wanted) note(common, fmt::format("the system starts {} threads only, not {}", threads, wanted));
+  if (threads < wanted) note(common, fmt::format("the system starts {} of {} threads only", threads, wanted));
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                           static_cast<std::size_t>(threads));
   require_non_negative("--time-limit", common.time_limit);
-  check_outputs({{"--output", common.output}});
   interruption.limit(common.time_limit);
   Result result = sim::in_memory(fmt::format("detp {} was at work", command.app->get_name()),
                                  [&] { return result_of(command, common, interruption.token()); });
@@ -99,9 +97,9 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
     const Json json = envelope(command.app->get_name(), common, threads, result);
     require_finite_numbers(json);
     // Invalid UTF-8, for instance in a file's name, is replaced, because JSON must be valid.
-    print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", output);
+    print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", output, interruption);
   } else {
-    print(common.format == "csv" ? result.csv : safe_text(result.text, common.screen().colour), output);
+    print(common.format == "csv" ? result.csv : safe_text(result.text, common.screen().colour), output, interruption);
   }
   return static_cast<int>(result.not_reached ? ExitCode::stopped : result.code);
 }
@@ -137,6 +135,8 @@ Failure current_failure(std::span<char* const> arguments) {
     throw;
   } catch (const sim::FileError& error) {
     return {ExitCode::bad_input, error.what()};
+  } catch (const sim::Stopped& stopped) {
+    return {ExitCode::stopped, stopped.what()};
   } catch (const std::invalid_argument& error) {
     return {ExitCode::bad_input, with_short_arguments(error.what(), arguments)};
   } catch (const std::length_error& error) {
@@ -153,7 +153,8 @@ Failure current_failure(std::span<char* const> arguments) {
     return {ExitCode::internal, error.what()};
   } catch (const std::system_error& error) {
     if (error.code() == std::errc::resource_unavailable_try_again)
-      return {ExitCode::bad_input, "the system starts no thread; allow more processes (ulimit -u) or memory"};
+      return {ExitCode::internal,
+              "the system starts no thread; allow more processes (ulimit -u) or memory (ulimit -v)"};
     return {ExitCode::internal, std::string("internal error: ") + error.what()};
   } catch (const std::exception& error) {
     return {ExitCode::internal, std::string("internal error: ") + error.what()};
@@ -191,7 +192,14 @@ int run_alone(int argc, char** argv, Interruption& interruption) {
 
 int run_program(int argc, char** argv, const JoinWorld& join) {
   prepare_streams();
-  Interruption interruption;
+  std::optional<Interruption> watch;
+  try {
+    watch.emplace();
+  } catch (const std::system_error&) {
+    const Failure failure = current_failure({argv, argv + argc});
+    return fail(failure.code, failure.message);
+  }
+  Interruption& interruption = *watch;
   if (const int processes = launched_processes(); processes > 1 && !join)
     return fail(ExitCode::bad_input,
                 fmt::format("{} processes were started together, but detp was built without MPI", processes));

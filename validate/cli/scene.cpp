@@ -10,7 +10,6 @@
 #include "detp/sim/files/mesh_writer.hpp"
 #include "detp/sim/files/ray_file.hpp"
 #include "detp/sim/open/open_scene.hpp"
-#include "detp/validate/cli/options/outputs.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/report/columns.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
@@ -30,8 +29,6 @@ struct SceneOptions {
 
 void write_mesh(const std::string& path, const validate::JobRequest& request, const std::stop_token& stop) {
   if (!request.scene) throw std::invalid_argument("--write-mesh takes a scene with triangles");
-  if (path.ends_with(".obj"))
-    throw std::invalid_argument(fmt::format("--write-mesh writes PLY; give FILE.ply (got {})", detp::quoted(path)));
   const sim::Scene scene = sim::open_scene({*request.scene, std::nullopt, request.seed}, stop);
   if (scene.mesh.triangles.empty())
     throw std::invalid_argument(fmt::format("{} has no triangles to write", shown_path(scene.name)));
@@ -94,10 +91,6 @@ std::string to_text(const validate::Job& job, const std::vector<double>& if_swit
 }
 
 Result run_scene(const SceneOptions& options, const CommonOptions& common, const std::stop_token& stop) {
-  check_outputs({{"--output", common.output},
-                 {"--write-mesh", options.mesh_file},
-                 {"--write-discs", options.disc_file},
-                 {"--write-rays", options.ray_file}});
   const ProgressLine progress(common.quiet);
   const validate::JobRequest request = options.workload.request(common);
   const bool writes = options.disc_file || options.ray_file;
@@ -153,8 +146,8 @@ Command scene_command(CLI::App& program) {
   const auto options = std::make_shared<SceneOptions>();
   options->workload.add_to(*app);
   app->add_option("--write-mesh", options->mesh_file, "write the triangles as PLY");
-  app->add_option("--write-discs", options->disc_file, "write the discs as CSV");
-  app->add_option("--write-rays", options->ray_file, "write the rays as CSV");
+  app->add_option("--write-discs", options->disc_file, "write the discs, as CSV or PLY by the file's name");
+  app->add_option("--write-rays", options->ray_file, "write the rays, as CSV or PLY by the file's name");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_scene(*options, common, stop);
           }};

@@ -1,9 +1,13 @@
 #include "execute_until.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
+#include "detp/model/vocabulary/checks.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 
@@ -17,6 +21,17 @@ std::span<const T> part(std::span<const T> all, std::size_t first, std::size_t c
 }
 
 }  // namespace
+
+void check(const RayBatch& batch) {
+  require_positive("number of photons of a batch", batch.photons);
+  require_positive("scale of a batch", batch.scale);
+  const std::span<const std::uint64_t> numbers = batch.rays.photons;
+  std::size_t photons = numbers.empty() ? 0 : 1;
+  for (std::size_t i = 1; i < numbers.size(); ++i) photons += numbers[i] != numbers[i - 1] ? 1 : 0;
+  if (static_cast<double>(photons) > batch.photons)
+    throw std::invalid_argument(
+        fmt::format("a batch has rays of {} photons, more than its {:g} photons", photons, batch.photons));
+}
 
 FoundBatch found_batch(const RayBatch& made, const sim::Outcome& found, double make_seconds) {
   if (found.stopped) throw sim::Stopped("stopped during a batch");
@@ -53,6 +68,7 @@ ExecutedUntil execute_until(const Plan& plan, const NextRays& next, std::vector<
     const std::optional<RayBatch> made = next(rays);
     const double make_seconds = watch.seconds();
     if (!made) return std::nullopt;
+    check(*made);
     return found_batch(*made, plan.searcher().search(made->rays, scratch, {.threads = plan.threads()}), make_seconds);
   };
   return execute_until(find, std::move(weights), target, options);

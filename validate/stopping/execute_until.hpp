@@ -22,6 +22,9 @@ struct RayBatch {
   double scale = 1;    ///< irradiance of these rays times `scale`: that as if they were all photons
 };
 
+/// Throws std::invalid_argument unless photons and scale are finite and > 0, and the rays' numbered photons at most `photons`.
+void check(const RayBatch& batch);
+
 /// Makes a batch of about so many rays, to the end of the last photon; nothing if there are no more. May throw sim::Stopped.
 using NextRays = std::function<std::optional<RayBatch>(std::uint64_t rays)>;
 

@@ -39,21 +39,33 @@ void PairedBatches::set_state(State state) {
 void PairedBatches::add(std::span<const double> irradiance, double photons) {
   if (irradiance.size() != weights_.size()) throw std::invalid_argument("a batch needs the irradiance of every disc");
   require_positive("number of photons of a batch", photons);
-  for (std::size_t i = 0; i < state_.sums.size(); ++i) state_.sums[i] += photons * irradiance[i];
+  for (const double one : irradiance) require_finite("irradiance of a batch", one);
+  settle_unit(irradiance);
+  const auto in_units = [&](std::size_t i) { return std::ldexp(irradiance[i], -state_.unit); };
+  for (std::size_t i = 0; i < state_.sums.size(); ++i) state_.sums[i] += photons * in_units(i);
   state_.photons += photons;
   if (state_.pending_photons == 0) {
-    state_.pending.assign(irradiance.begin(), irradiance.end());
+    state_.pending.resize(irradiance.size());
+    for (std::size_t i = 0; i < irradiance.size(); ++i) state_.pending[i] = in_units(i);
     state_.pending_photons = photons;
     return;
   }
   const double scale = std::sqrt(photons * state_.pending_photons / (photons + state_.pending_photons));
   double square = 0;
   for (std::size_t i = 0; i < weights_.size(); ++i) {
-    state_.pending[i] = scale * (irradiance[i] - state_.pending[i]);
+    state_.pending[i] = scale * (in_units(i) - state_.pending[i]);
     square += weights_[i] * state_.pending[i] * state_.pending[i];
   }
   compare_with_earlier(std::move(state_.pending), square);
   state_.pending_photons = 0;
+}
+
+void PairedBatches::settle_unit(std::span<const double> irradiance) {
+  constexpr int usual = 128;
+  const auto is_zero = [](double one) { return one == 0; };
+  if (!std::ranges::all_of(state_.sums, is_zero) || std::ranges::all_of(irradiance, is_zero)) return;
+  const int exponent = std::ilogb(std::ranges::max(irradiance));
+  state_.unit = std::abs(exponent) > usual ? exponent : 0;
 }
 
 void PairedBatches::compare_with_earlier(std::vector<double> difference, double square) {
@@ -71,7 +83,7 @@ void PairedBatches::compare_with_earlier(std::vector<double> difference, double 
 
 std::vector<double> PairedBatches::irradiance() const {
   std::vector<double> mean = state_.sums;
-  for (double& one : mean) one /= std::max(1.0, state_.photons);
+  for (double& one : mean) one = std::ldexp(one / std::max(1.0, state_.photons), state_.unit);
   return mean;
 }
 
@@ -81,7 +93,9 @@ double PairedBatches::variance() const {
   return sum / static_cast<double>(state_.pairs.size());
 }
 
-double PairedBatches::mean_square() const {
+double PairedBatches::mean_square() const { return std::ldexp(mean_square_in_units(), 2 * state_.unit); }
+
+double PairedBatches::mean_square_in_units() const {
   double square = 0;
   for (std::size_t i = 0; i < weights_.size(); ++i)
     square += weights_[i] * (state_.sums[i] / state_.photons) * (state_.sums[i] / state_.photons);
@@ -102,7 +116,7 @@ double PairedBatches::variance_freedom() const {
 
 NoiseInterval PairedBatches::noise(double confidence) const {
   require_ratio("confidence", confidence);
-  const double square = state_.pairs.size() < 2 ? 0 : mean_square();
+  const double square = state_.pairs.size() < 2 ? 0 : mean_square_in_units();
   if (!(square > 0) || !(variance() > 0)) return {not_known, 0, not_known};
   const boost::math::fisher_f ratio(discs_freedom(), variance_freedom());
   const double expected = variance() / state_.photons / square;

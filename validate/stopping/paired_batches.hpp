@@ -37,6 +37,8 @@ class PairedBatches {
  public:
   /// All that is known of the batches so far.
   struct State {
+    /// Irradiance is kept in units of 2^unit, so that fourth powers neither overflow nor vanish: of extreme powers alone, else 0.
+    int unit = 0;
     std::vector<double> sums;     ///< of irradiance times photons
     std::vector<double> pending;  ///< first batch of a pair
     double pending_photons = 0;   ///< 0: none
@@ -55,14 +57,14 @@ class PairedBatches {
   void set_state(State state);
 
   /// The irradiance from one batch, as if it were all photons. Batches 1 and 2, 3 and 4, … are pairs. Throws
-  /// std::invalid_argument for other than one value for each disc, and unless photons > 0.
+  /// std::invalid_argument for other than one value for each disc, for one that is not finite, and unless photons > 0.
   void add(std::span<const double> irradiance, double photons);
 
   /// Mean over all batches by their photons; 0 before the first.
   [[nodiscard]] std::vector<double> irradiance() const;
   [[nodiscard]] double photons() const { return state_.photons; }
   [[nodiscard]] std::size_t pairs() const { return state_.pairs.size(); }
-  /// B², not below 0.
+  /// B², not below 0; beyond 1e308 infinite.
   [[nodiscard]] double mean_square() const;
 
   /// The noise of the irradiance so far. `high` alone is a bound with the confidence; with `low` it is an interval with 2 confidence - 1. Not
@@ -73,7 +75,10 @@ class PairedBatches {
   [[nodiscard]] double photons_for(double noise, double confidence) const;
 
  private:
-  [[nodiscard]] double variance() const;          ///< σ²
+  /// Sets the unit by the first irradiance that is not 0.
+  void settle_unit(std::span<const double> irradiance);
+  [[nodiscard]] double mean_square_in_units() const;
+  [[nodiscard]] double variance() const;          ///< σ², in units
   [[nodiscard]] double discs_freedom() const;     ///< ν
   [[nodiscard]] double variance_freedom() const;  ///< m
   void compare_with_earlier(std::vector<double> difference, double square);

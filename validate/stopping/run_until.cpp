@@ -30,6 +30,8 @@ class UntilRun {
   }
 
   UntilResult run() && {
+    require_positive("most rays", options_.most_rays);
+    require_positive("most rays of a batch", static_cast<double>(options_.most_in_batch));
     if (options_.resume)
       go_on_from(*options_.resume);
     else

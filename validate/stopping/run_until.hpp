@@ -92,7 +92,7 @@ struct UntilResult {
 /// tests together allow 1 - confidence. The result's interval is that of the last test.
 ///
 /// Asymptotic, as PairedBatches. If no photon met a disc among n: the bound -ln(1 - confidence)/n of their share.
-/// Throws as check(ErrorTarget), std::invalid_argument if the state is of other discs, and what `next` throws but sim::Stopped: then the result has what is known so far.
+/// Throws as check(ErrorTarget), std::invalid_argument unless most_rays > 0 and finite, for a batch whose numbers are not, and if the state is of other discs, and what `next` throws but sim::Stopped: then the result has what is known so far.
 [[nodiscard]] UntilResult run_until(const NextBatch& next, std::vector<double> weights, const ErrorTarget& target,
                                     const UntilOptions& options = {});
 

@@ -1,9 +1,13 @@
 #include "until_json.hpp"
 
+#include <algorithm>
+#include <stdexcept>
 #include <utility>
 
+#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/validate/base/json_bytes.hpp"
 #include "detp/validate/checkpoint/counts_json.hpp"
+#include "detp/validate/choice/candidate_json.hpp"
 
 namespace detp::sim {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Vectors, cull, test)
@@ -15,7 +19,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Outcome, hits, total_hits, counts, vectors, s
 
 namespace detp::validate {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairedBatches::State, sums, pending, pending_photons, photons, pairs, earlier,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairedBatches::State, unit, sums, pending, pending_photons, photons, pairs, earlier,
                                    products_of_squares, squares_of_products)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UntilState, batches, rays, tests, stage_rays, stage_is_test, stage_is_last,
                                    stage_batches)
@@ -23,12 +27,19 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ExecutedUntil, outcome, make_seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Batch, irradiance, photons, rays)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FoundBatch, batch, outcome, make_seconds)
 
-nlohmann::json json_of(const UntilState& state, const ExecutedUntil& so_far) {
-  return {{"state", state}, {"so_far", so_far}};
+nlohmann::json json_of(const Candidate& candidate, const UntilState& state, const ExecutedUntil& so_far) {
+  return {{"technique", name(candidate.technique)},
+          {"parameters", to_json(candidate)},
+          {"state", state},
+          {"so_far", so_far}};
 }
 
 SavedRun saved_run_of(const nlohmann::json& json) {
-  return {json.at("state").get<UntilState>(), json.at("so_far").get<ExecutedUntil>()};
+  const std::string technique = json.at("technique");
+  const auto* const known = std::ranges::find(all_techniques, technique, [](Technique one) { return name(one); });
+  if (known == std::end(all_techniques)) throw std::invalid_argument("its technique is " + detp::quoted(technique));
+  return {candidate_of(*known, json.at("parameters")), json.at("state").get<UntilState>(),
+          json.at("so_far").get<ExecutedUntil>()};
 }
 
 std::string bytes_of(const FoundBatch& found) { return json_bytes(found); }

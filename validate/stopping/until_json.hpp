@@ -2,19 +2,21 @@
 
 #include <nlohmann/json.hpp>
 
+#include "detp/model/rank/registry.hpp"
 #include "execute_until.hpp"
 
 /// A run between two batches as JSON, for a CheckpointFile.
 namespace detp::validate {
 
 struct SavedRun {
+  Candidate candidate;
   UntilState state;
   ExecutedUntil so_far;  ///< hits, counts and seconds; no result
 };
 
-[[nodiscard]] nlohmann::json json_of(const UntilState& state, const ExecutedUntil& so_far);
+[[nodiscard]] nlohmann::json json_of(const Candidate& candidate, const UntilState& state, const ExecutedUntil& so_far);
 
-/// Throws nlohmann::json::exception unless the JSON is that of json_of.
+/// Throws nlohmann::json::exception or std::invalid_argument unless the JSON is that of json_of.
 [[nodiscard]] SavedRun saved_run_of(const nlohmann::json& json);
 
 /// To be sent to another process.

@@ -26,6 +26,7 @@ struct BlockSearch {
   /// Sums over photons, by place; null unless standard errors are requested and do not follow from numbers of hits.
   PhotonSums* photons = nullptr;
   const double* powers = nullptr;  ///< of the block's rays; null if hits are only counted
+  double unit = 1;                 ///< u of the squares in PhotonSums
 };
 
 /// Whether a disc must be tested with the rays of all classes at once (test_all_classes): for sums over photons that have

@@ -84,6 +84,7 @@ DiscResults::DiscResults(const Problem& problem, const DiscTree& tree, const Run
       last_block_(last_block(problem, options)),
       snapshot_(options.memory) {
   if (options.standard_error) own_.keep_errors();
+  totals().expect_powers(problem.largest_power());
   if (options.totals != nullptr) ensure_sums();
   if (totals().block() == last_block_) return;
   ensure_sums();
@@ -145,7 +146,8 @@ BlockSearch DiscResults::begin(const Frame& frame, const Block& rays) {
           .hits = hits_.data(),
           .totals = only_count ? nullptr : sums_.data(),
           .photons = errors && !only_count ? photons_.data() : nullptr,
-          .powers = rays.powers()};
+          .powers = rays.powers(),
+          .unit = totals().unit()};
 }
 
 void DiscResults::add_counted_hits() {
@@ -162,7 +164,10 @@ std::uint64_t DiscResults::add_counted_hits(std::size_t first, std::size_t last)
   std::optional<RepeatedSums> sums;
   std::optional<RepeatedSums> squares;
   if (counted_power_) sums.emplace(*counted_power_, options_.memory);
-  if (counted_power_ && !photons_.empty()) squares.emplace(*counted_power_ * *counted_power_, options_.memory);
+  if (counted_power_ && !photons_.empty()) {
+    const double power = totals().unit() * *counted_power_;
+    squares.emplace(power * power, options_.memory);
+  }
   for (std::size_t place = first; place < last; ++place) {
     PhotonSums* const photons = squares ? &photons_[place] : nullptr;
     std::uint32_t added = 0;
@@ -303,7 +308,7 @@ void DiscResults::store_totals() {
   totals().add_rays(problem_);
   const bool own = options_.totals == nullptr;
   if (own) resize_results(sums_.size(), !photons_.empty(), outcome_);
-  for (PhotonSums& photons : photons_) photons.close();
+  for (PhotonSums& photons : photons_) photons.close(totals().unit());
   const double heaviest = heaviest_photon(photons_, problem_.largest_power());
   Totals& all = totals();
   const auto fetch = [&](std::size_t place) {

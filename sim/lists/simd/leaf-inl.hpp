@@ -106,7 +106,7 @@ HWY_INLINE void add_powers(const BlockSearch& block, std::uint32_t place, std::s
     for (const std::uint32_t* ray = rays.first; ray != rays.last; ++ray) {
       const double one = block.powers[*ray];
       power += one;
-      squares += one * one;
+      squares += (block.unit * one) * (block.unit * one);
       largest = std::max(largest, one);
     }
     photons.squares[axis] = squares;
@@ -148,7 +148,8 @@ HWY_NOINLINE inline void add_photons(const BlockSearch& block, std::uint32_t pla
     return value;
   };
   const auto close = [&] {
-    const auto square = std::bit_cast<std::uint64_t>(open * open);
+    const double scaled = block.unit * open;
+    const auto square = std::bit_cast<std::uint64_t>(scaled * scaled);
     squares_x += std::bit_cast<double>(square & masks[axis][0]);
     squares_y += std::bit_cast<double>(square & masks[axis][1]);
     squares_z += std::bit_cast<double>(square & masks[axis][2]);

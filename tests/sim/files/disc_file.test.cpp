@@ -34,14 +34,19 @@ TEST_SUITE("identity") {
         {.centre = {0.1, -1.0 / 3, 1e-300}, .normal = {0, 0, 1}, .radius = 0.01},
         {.centre = {1e300, 5e-324, 0}, .normal = glm::normalize(glm::dvec3{0.3, -0.7, 0.11}), .radius = 1e-17}};
     const ScratchFolder folder;
-    write_discs(folder.path("discs.csv"), discs);
-    const std::vector<Disc> back = read_discs(folder.path("discs.csv"), std::nullopt);
-    REQUIRE(back.size() == 2);
-    for (std::size_t i = 0; i < 2; ++i) {
-      CHECK(back[i].centre == discs[i].centre);
-      CHECK(back[i].normal == discs[i].normal);
-      CHECK(back[i].radius == discs[i].radius);
+    for (const char* name : {"discs.csv", "discs.ply", "discs", "DISCS.PLY"}) {
+      write_discs(folder.path(name), discs);
+      const std::vector<Disc> back = read_discs(folder.path(name), std::nullopt);
+      REQUIRE(back.size() == 2);
+      for (std::size_t i = 0; i < 2; ++i) {
+        CHECK(back[i].centre == discs[i].centre);
+        CHECK(back[i].normal == discs[i].normal);
+        CHECK(back[i].radius == discs[i].radius);
+      }
     }
+    CHECK_THROWS_AS(write_discs(folder.path("discs.xyz"), discs), FileError);
+    CHECK(support::content_of(folder.path("discs")) == support::content_of(folder.path("discs.csv")));
+    CHECK(support::content_of(folder.path("discs.ply")).starts_with("ply\nformat binary_little_endian"));
     CHECK(support::content_of(folder.path("discs.csv")).starts_with("x,y,z,nx,ny,nz,radius\n0.1,-0.333"));
   }
 }

@@ -58,7 +58,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("if nameless files are not supported, the writer removes its part file") {
     const ScratchFolder folder;
     for (const bool committed : {false, true}) {
-      OutputFile file(folder.path("out"), OutputFile::Temporary::named);
+      OutputFile file(folder.path("out"), {}, OutputFile::Temporary::named);
       file.write(std::string(200'000, 'x'));
       CHECK(folder.entries() == 1);
       CHECK(!std::filesystem::exists(folder.path("out")));
@@ -74,8 +74,8 @@ TEST_SUITE("known answer") {
     const auto end_of = [&](OutputFile::Temporary temporary, const auto& end) {
       const pid_t child = ::fork();
       if (child == 0) {
-        OutputFile file(folder.path("out"), temporary);
-        OutputFile over(existing, temporary);
+        OutputFile file(folder.path("out"), {}, temporary);
+        OutputFile over(existing, {}, temporary);
         for (OutputFile* each : {&file, &over}) each->write(std::string(200'000, 'x'));
         end();
         ::_exit(0);

@@ -33,15 +33,18 @@ TEST_SUITE("identity") {
         {.origin = {0.1, 2e-308, -3}, .direction = {0, 1, 0}, .length = unbounded, .power = 1},
         {.origin = {1e22, 0, 0}, .direction = glm::normalize(glm::dvec3{1, 2, 3}), .length = 0.7, .power = 1e-9}};
     const ScratchFolder folder;
-    write_rays(folder.path("rays.csv"), rays);
-    const std::vector<Ray> back = read_rays(folder.path("rays.csv")).paths.rays;
-    REQUIRE(back.size() == 2);
-    for (std::size_t i = 0; i < 2; ++i) {
-      CHECK(back[i].origin == rays[i].origin);
-      CHECK(back[i].direction == rays[i].direction);
-      CHECK(back[i].length == rays[i].length);
-      CHECK(back[i].power == rays[i].power);
+    for (const char* name : {"rays.csv", "rays.ply", "rays"}) {
+      write_rays(folder.path(name), rays);
+      const std::vector<Ray> back = read_rays(folder.path(name)).paths.rays;
+      REQUIRE(back.size() == 2);
+      for (std::size_t i = 0; i < 2; ++i) {
+        CHECK(back[i].origin == rays[i].origin);
+        CHECK(back[i].direction == rays[i].direction);
+        CHECK(back[i].length == rays[i].length);
+        CHECK(back[i].power == rays[i].power);
+      }
     }
+    CHECK_THROWS_AS(write_rays(folder.path("rays.txt"), rays), FileError);
   }
 }
 
@@ -51,11 +54,13 @@ TEST_SUITE("photons in files") {
     const std::vector<std::uint64_t> photons{0, 0, 1};
     const std::vector<double> landings{0.5, 1.999, unbounded};
     const ScratchFolder folder;
-    write_rays(folder.path("rays.csv"), PathRays{rays, photons, landings});
-    const RayFile back = read_rays(folder.path("rays.csv"));
-    CHECK(back.paths.photons == photons);
-    CHECK(back.paths.landings == landings);
-    CHECK(back.order.empty());
+    for (const char* name : {"rays.csv", "rays.ply"}) {
+      write_rays(folder.path(name), PathRays{rays, photons, landings});
+      const RayFile back = read_rays(folder.path(name));
+      CHECK(back.paths.photons == photons);
+      CHECK(back.paths.landings == landings);
+      CHECK(back.order.empty());
+    }
   }
 
   TEST_CASE("photons get the numbers 0, 1, 2, … in the order of the rays; without the column there are none") {

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -175,15 +176,63 @@ TEST_SUITE("standard error of irradiance") {
     }
   }
 
-  TEST_CASE("Powers whose squares underflow or overflow give bounds, no zero errors") {
-    const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 1}};
-    for (const double power : {0.0, 1e-200, 1e200}) {
-      const std::vector<Ray> rays(50, Ray{{0, 0, 1}, {0, 0, -1}, unbounded, power});
-      const Outcome outcome = run(make_problem(rays, discs), box_tree, {.standard_error = true});
-      CHECK(std::isinf(outcome.standard_error[0]));
-      CHECK(outcome.upper_bound[0] >= outcome.irradiance[0]);
-      CHECK(std::isfinite(outcome.upper_bound[0]));
+  TEST_CASE("Extreme powers have the errors of ordinary ones, scaled, by every technique and in blocks") {
+    const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 60, 0.5, 3);
+    std::vector<Ray> rays = LineField(enclosing_sphere(discs), 4).lines(0, 3000);
+    const std::vector<std::uint64_t> photons = few_rays_each(rays.size());
+    const auto with_powers = [&](int exponent, bool equal) {
+      for (std::size_t i = 0; i < rays.size(); ++i)
+        rays[i].power = std::ldexp(equal ? 0.75 : 0.25 + uniform4(5, Stream::tests, i)[0], exponent);
+    };
+    for (const bool numbered : {false, true})
+      for (const bool equal : {false, true}) {
+        const PathRays paths = numbered ? PathRays{rays, photons, {}} : PathRays{rays};
+        with_powers(0, equal);
+        const Outcome usual = run(make_problem(paths, discs), box_tree, {.standard_error = true});
+        for (const int exponent : {-900, -660, 300, 660, 930})
+          for (const Candidate& candidate : one_of_each)
+            for (const Engine engine : {Engine::simd, Engine::plain}) {
+              CAPTURE(exponent);
+              CAPTURE(name(candidate.technique));
+              with_powers(exponent, equal);
+              const Outcome extreme =
+                  run(make_problem(paths, discs), candidate, {.standard_error = true, .engine = engine});
+              for (std::size_t d = 0; d < discs.size(); ++d) {
+                REQUIRE(extreme.standard_error[d] == std::ldexp(usual.standard_error[d], exponent));
+                REQUIRE(extreme.upper_bound[d] == std::ldexp(usual.upper_bound[d], exponent));
+              }
+            }
+        if (numbered) continue;
+        const StreamOptions options{.run = {.standard_error = true}, .block = 100};
+        const StreamedOutcome streamed = run_streamed(discs, RaysInMemory(rays), box_tree, options);
+        for (std::size_t d = 0; d < discs.size(); ++d)
+          CHECK(streamed.outcome.standard_error[d] == std::ldexp(usual.standard_error[d], 930));
+      }
+  }
+
+  TEST_CASE("Powers that grow beyond all bounds from search to search have the errors of one search") {
+    const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 60, 0.5, 3);
+    std::vector<Ray> rays = LineField(enclosing_sphere(discs), 4).lines(0, 3000);
+    for (const bool grow : {true, false}) {
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        const std::size_t third = (grow ? i : rays.size() - 1 - i) / 1000;
+        rays[i].power = std::ldexp(0.25 + uniform4(5, Stream::tests, i)[0], third == 0 ? -700 : third == 1 ? 0 : 700);
+      }
+      const Outcome whole = run(make_problem(rays, discs), box_tree, {.standard_error = true});
+      CHECK(std::ranges::any_of(whole.standard_error, [](double one) { return std::isfinite(one); }));
+      const StreamOptions options{.run = {.standard_error = true}, .block = 100};
+      const StreamedOutcome streamed = run_streamed(discs, RaysInMemory(rays), box_tree, options);
+      CHECK(streamed.outcome.standard_error == whole.standard_error);
+      CHECK(streamed.outcome.upper_bound == whole.upper_bound);
     }
+  }
+
+  TEST_CASE("Without power there are bounds of 0, no zero errors") {
+    const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 1}};
+    const std::vector<Ray> rays(50, Ray{{0, 0, 1}, {0, 0, -1}, unbounded, 0});
+    const Outcome outcome = run(make_problem(rays, discs), box_tree, {.standard_error = true});
+    CHECK(std::isinf(outcome.standard_error[0]));
+    CHECK(outcome.upper_bound[0] == 0);
   }
 
   TEST_CASE("Bounds of few hits hold in 95 % of cases") {

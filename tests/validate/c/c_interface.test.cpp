@@ -115,6 +115,32 @@ TEST_SUITE("c interface") {
     bad[17].direction[0] = bad[17].direction[1] = bad[17].direction[2] = 0;
     rays.directions.x = bad[0].direction;
     refused("ray 17");
+    for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
+      for (int axis = 0; axis < 3; ++axis) {
+        bad = data.segments;
+        bad[3].direction[0] = bad[3].direction[1] = bad[3].direction[2] = 0;
+        bad[3].direction[axis] = wrong;
+        rays.directions.x = bad[0].direction;
+        refused(std::isnan(wrong) ? "ray 3: direction must be finite (got nan"
+                                  : "ray 3: direction must be finite (got inf");
+        std::vector<Data::Sample> samples = data.samples;
+        samples[4].normal[0] = samples[4].normal[1] = samples[4].normal[2] = 0;
+        samples[4].normal[axis] = wrong;
+        discs.normals.x = samples[0].normal;
+        refused("disc 4: normal must be finite");
+      }
+    for (const std::size_t count : {SIZE_MAX, std::size_t{1} << 44})
+      for (std::size_t* const which : {&discs.count, &rays.count}) {
+        *which = count;
+        CHECK(detp_plan_create(&discs, &rays, nullptr, &plan, &error) == DETP_NO_MEMORY);
+        CHECK(std::string(error.text).find("count must be at most 2^43") != std::string::npos);
+        discs = data.discs(0.5);
+        rays = data.rays();
+      }
+    discs.count = std::size_t{1} << 42;
+    CHECK(detp_plan_create(&discs, &rays, nullptr, &plan, &error) == DETP_NO_MEMORY);
+    CHECK_MESSAGE(std::string(error.text).find("the discs would take") != std::string::npos, error.text);
+    discs = data.discs(0.5);
     CHECK(detp_plan_create(&discs, nullptr, nullptr, &plan, &error) == DETP_INVALID);
     CHECK(std::string(error.text) == "rays is null");
     CHECK(detp_plan_create(&discs, &rays, nullptr, nullptr, &error) == DETP_INVALID);
@@ -221,5 +247,77 @@ TEST_SUITE("c interface") {
     const auto stop = [](void*, const char*, double) { return 1; };
     CHECK(detp_search_until(plan, next, &lamp, &closer, stop, nullptr, &estimate, &error) == DETP_STOPPED);
     detp_plan_free(&plan);
+  }
+
+  TEST_CASE("numbers that the caller's function returns are checked") {
+    const Data data(500, 1000, 3);
+    const detp_discs discs = data.discs(0.2);
+    const detp_rays first = data.rays();
+    detp_plan* plan = nullptr;
+    detp_error error{};
+    REQUIRE(detp_plan_create(&discs, &first, nullptr, &plan, &error) == DETP_OK);
+    struct Answer {
+      detp_rays rays;
+      double photons = 0, scale = 1;
+    };
+    const auto next = [](void* user, std::uint64_t, detp_rays* rays, double* photons, double* scale) {
+      const Answer& answer = *static_cast<Answer*>(user);
+      *rays = answer.rays;
+      *photons = answer.photons;
+      *scale = answer.scale;
+      return 0;
+    };
+    detp_target target = DETP_INIT(detp_target);
+    target.noise = 0.05;
+    target.most_rays = 10'000;
+    std::vector<double> irradiance(500, -7);
+    detp_estimate estimate = DETP_INIT(detp_estimate);
+    estimate.irradiance = irradiance.data();
+    const auto refused = [&](Answer answer, const std::string& part) {
+      CHECK(detp_search_until(plan, next, &answer, &target, nullptr, nullptr, &estimate, &error) == DETP_INVALID);
+      CHECK_MESSAGE(std::string(error.text).find(part) != std::string::npos, error.text, " has no ", part);
+      CHECK(irradiance == std::vector<double>(500, -7));
+      CHECK(estimate.rays == 0);
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinite = std::numeric_limits<double>::infinity();
+    for (const double wrong : {-1.0, 0.0, nan, infinite, -infinite}) {
+      refused({.rays = first, .scale = wrong}, "scale of a batch must be > 0 and finite");
+      if (wrong != 0) refused({.rays = first, .photons = wrong}, "number of photons must be >= 0 and finite");
+    }
+    refused({.rays = first, .scale = 1e308}, "irradiance of a batch must be finite");
+    std::vector<std::uint64_t> numbers(first.count);
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i / 2;
+    detp_rays numbered = first;
+    numbered.photons = numbers.data();
+    refused({.rays = numbered, .photons = 499}, "rays of 500 photons, more than its 499");
+    detp_rays none = DETP_INIT(detp_rays);
+    refused({.rays = none}, "there are none, and no photons");
+    const Answer good{.rays = numbered, .photons = 500};
+    for (const double wrong : {nan, -4.0, infinite}) {
+      target.most_rays = wrong;
+      refused(good, "most rays must be > 0 and finite");
+    }
+    target.most_rays = 10'000;
+    Answer answer = good;
+    CHECK_MESSAGE(detp_search_until(plan, next, &answer, &target, nullptr, nullptr, &estimate, &error) == DETP_OK,
+                  error.text);
+    detp_plan_free(&plan);
+  }
+
+  TEST_CASE("questions of the command alone are refused with a word of why") {
+    const auto refused = [](std::vector<const char*> words, const std::string& part) {
+      char* json = nullptr;
+      detp_error error{};
+      CHECK(detp_ask(words.data(), words.size(), nullptr, nullptr, &json, &error) == DETP_INVALID);
+      CHECK_MESSAGE(std::string(error.text).find(part) != std::string::npos, error.text, " has no ", part);
+      CHECK(json == nullptr);
+    };
+    for (const char* word : {"--help", "-h", "--version", "-V"}) refused({word}, "for the command alone");
+    refused({"help", "run"}, "for the command alone");
+    refused({"run", "--help"}, "for the command alone");
+    refused({}, "a command is needed");
+    refused({"model", "--samples", "10", "--disc-radius", "0.1", "--scene-side", "1", "-o", "x.json"},
+            "--output is for the command alone");
   }
 }

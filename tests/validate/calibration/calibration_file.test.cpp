@@ -9,6 +9,7 @@
 #include "detp/sim/files/file_error.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "support/scratch_file.hpp"
+#include "support/sealed.hpp"
 
 using namespace detp;
 
@@ -60,7 +61,7 @@ TEST_SUITE("identity") {
 
 TEST_SUITE("known answer") {
   TEST_CASE(
-      "a doubtful calibration does not replace a better one, but a worse one, a broken one and one of elsewhere") {
+      "a doubtful calibration does not replace a better one, but a worse one, an altered one and one of elsewhere") {
     const support::ScratchFolder folder;
     const std::string path = folder.path("calibration.json");
     const auto with_error = [](double error) {
@@ -78,12 +79,23 @@ TEST_SUITE("known answer") {
     CHECK(stored_error() == 0.05);
     CHECK(validate::save_calibration(path, with_error(0.1)).empty());  // not doubtful: the newer one counts
     CHECK(stored_error() == 0.1);
-    folder.file("calibration.json", "{");
-    CHECK(validate::save_calibration(path, with_error(0.2)).empty());
-    folder.file("calibration.json",
-                replaced(validate::calibration_text(with_error(0.05)), "\"cpu\": \"", "\"cpu\": \"x"));
-    CHECK(validate::save_calibration(path, with_error(0.2)).empty());
-    CHECK(stored_error() == 0.2);
+    const std::string better = validate::calibration_text(with_error(0.05));
+    for (const std::string& useless :
+         {replaced(better, "\"cpu\": \"", "\"cpu\": \"x"), replaced(better, "1.25e-08", "1.26e-08"), std::string()}) {
+      folder.file("calibration.json", useless);
+      CHECK(validate::save_calibration(path, with_error(0.2)).empty());
+      CHECK(stored_error() == 0.2);
+    }
+  }
+
+  TEST_CASE("no calibration replaces a file of another program") {
+    const support::ScratchFolder folder;
+    for (const char* foreign : {"{", "[1]", "my notes", "{\"schema\": {\"name\": \"other\"}}"}) {
+      const std::string path = folder.file("calibration.json", foreign);
+      CHECK(validate::save_calibration(path, some_calibration()).find("is not a calibration and stays") !=
+            std::string::npos);
+      CHECK(support::content_of(path) == foreign);
+    }
   }
 
   TEST_CASE(
@@ -97,17 +109,12 @@ TEST_SUITE("known answer") {
     CHECK(why.empty());
     CHECK_FALSE(validate::find_calibration(folder.file("bad.json", "{"), &why));
     CHECK(why.find("is not a calibration") != std::string::npos);
-    CHECK_FALSE(
-        validate::find_calibration(folder.file("far.json", replaced(good, "\"cpu\": \"", "\"cpu\": \"x")), &why));
+    const std::string far = replaced(good, "\"cpu\": \"", "\"cpu\": \"x");
+    CHECK_FALSE(validate::find_calibration(
+        folder.file("far.json", support::sealed_calibration(nlohmann::json::parse(far))), &why));
     CHECK(why.find("far.json: its cpu is") != std::string::npos);
-  }
-
-  TEST_CASE("a calibration without errors of techniques, as earlier programs wrote it, has the error of all") {
-    std::string old = replaced(validate::calibration_text(some_calibration()), "relative_errors", "other");
-    old = replaced(old, "processor_share", "another");
-    const validate::StoredCalibration stored = validate::parse_calibration(old, "c.json");
-    CHECK(stored.processor_share == 1);
-    CHECK(stored.simd.relative_error_of(Technique::box_tree) == doctest::Approx(0.0625 / 0.6745));
+    CHECK_FALSE(validate::find_calibration(folder.file("altered.json", far), &why));
+    CHECK(why.find("does not fit its checksum") != std::string::npos);
   }
 }
 
@@ -132,6 +139,22 @@ TEST_SUITE("bad input") {
       CHECK_THROWS_WITH_AS(static_cast<void>(validate::parse_calibration(bad, "c.json")), doctest::Contains("c.json: "),
                            sim::FileError);
     }
+  }
+
+  TEST_CASE("a calibration of which any digit was altered is refused") {
+    const std::string good = validate::calibration_text(some_calibration());
+    std::size_t altered = 0;
+    for (std::size_t i = 0; i < good.size(); ++i) {
+      if (good[i] < '0' || good[i] > '9') continue;
+      std::string bad = good;
+      bad[i] = good[i] == '9' ? '8' : static_cast<char>(good[i] + 1);
+      if (nlohmann::json::parse(bad, nullptr, false) == nlohmann::json::parse(good)) continue;  // as 10 of 1.25e-010
+      ++altered;
+      CHECK_THROWS_AS(static_cast<void>(validate::parse_calibration(bad, "c.json")), sim::FileError);
+    }
+    CHECK(altered > 100);
+    const nlohmann::json json = nlohmann::json::parse(good);
+    CHECK_NOTHROW(static_cast<void>(validate::parse_calibration(json.dump(), "c.json")));  // in another layout
   }
 
   TEST_CASE("a calibration with another version of the cost model is refused, and the message says why") {

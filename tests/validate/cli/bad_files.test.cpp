@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
+#include "detp/validate/checkpoint/checkpoint_file.hpp"
 #include "support/command.hpp"
+#include "support/sealed.hpp"
 
 namespace detp::support {
 namespace {
@@ -152,7 +154,6 @@ TEST_SUITE("bad input") {
     for (const std::string option : {"--write-mesh", "--write-discs", "--write-rays"})
       for (const std::string& path : {missing, std::string("/dev/full"), folder.path("")})
         refusals.push_back({scene + Arguments{option, path}, path + ": cannot be written"});
-    refusals.push_back({scene + Arguments{"--write-mesh", folder.path("mesh.obj")}, "give FILE.ply"});
     check_refused(refusals);
     CHECK(folder.entries() == 0);
   }
@@ -183,17 +184,19 @@ TEST_SUITE("bad input") {
       const std::string path = folder.file(std::to_string(folder.entries()), content);
       return Refusal("validate --effort thorough --resume --checkpoint " + path, named);
     };
-    check_refused(
-        {resumed("", "is not a checkpoint"),
-         resumed("{\x1b[2J", "is not a checkpoint"),
-         resumed("{}", "is not a checkpoint"),
-         resumed(std::string(5000, '['), "is not a checkpoint"),
-         resumed(
-             R"({"schema":{"name":"detp.checkpoint","version":3},"work":"validate --effort thorough","key":{"seed":7}})",
-             "was made with seed 7"),
-         resumed(R"({"schema":{"name":"detp.checkpoint","version":9}})", "not a checkpoint of this version"),
-         {"validate --effort thorough --checkpoint " + folder.path("missing/c"), "cannot be written"},
-         {"validate --effort thorough --resume --checkpoint " + folder.path(""), "Is a directory"}});
+    const Json with_seed{{"schema", {{"name", "detp.checkpoint"}, {"version", validate::checkpoint_version}}},
+                         {"work", "validate --effort thorough"},
+                         {"key", {{"seed", 7}}},
+                         {"state", Json::object()}};
+    check_refused({resumed("", "is not a checkpoint"),
+                   resumed("{\x1b[2J", "is not a checkpoint"),
+                   resumed("{}", "is not a checkpoint"),
+                   resumed(std::string(5000, '['), "is not a checkpoint"),
+                   resumed(sealed_checkpoint(with_seed), "was made with seed 7"),
+                   resumed(with_seed.dump(), "is not a checkpoint"),
+                   resumed(R"({"schema":{"name":"detp.checkpoint","version":9}})", "not a checkpoint of this version"),
+                   {"validate --effort thorough --checkpoint " + folder.path("missing/c"), "cannot be written"},
+                   {"validate --effort thorough --resume --checkpoint " + folder.path(""), "Is a directory"}});
   }
 
   TEST_CASE("messages quote at most 60 characters of the input, and no control character") {

@@ -8,6 +8,7 @@
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "support/attempts.hpp"
 #include "support/command.hpp"
+#include "support/sealed.hpp"
 
 namespace detp::support {
 namespace {
@@ -94,7 +95,9 @@ TEST_SUITE("bad input") {
     costless["costs"] = {{"simd", Json::object()}, {"plain", Json::object()}};
     Json vast = Json::parse(content_of(path));
     vast["left_out_median_error"] = 1e308;
-    for (const std::string& content : {foreign.dump(), older.dump(), costless.dump(), vast.dump(), std::string("{")}) {
+    const std::string of_elsewhere = support::sealed_calibration(foreign);
+    for (const std::string& content :
+         {of_elsewhere, older.dump(), costless.dump(), vast.dump(), foreign.dump(), std::string("{")}) {
       CAPTURE(content);
       folder.file("cache/detp/calibration.json", content);
       const Finished automatic = detp(question);
@@ -107,6 +110,7 @@ TEST_SUITE("bad input") {
                               : content == older.dump()    ? "version 2 of the cost model"
                               : content == costless.dump() ? "it has no unit costs of brute-force"
                               : content == vast.dump()     ? "left_out_median_error must be at most 100"
+                              : content == foreign.dump()  ? "does not fit its checksum"
                                                            : "its cpu is another";
       CHECK(named.err.find(why) != std::string::npos);
     }

@@ -145,14 +145,50 @@ TEST_SUITE("end to end") {
 
   TEST_CASE("a second signal ends the command at once, with code 130") {
     const support::ScratchFolder folder;
-    const std::string pipe = folder.path("pipe");  // nobody reads it, so writing waits
+    const std::string pipe =
+        folder.path("pipe");  // nobody reads it, so the first signal ends the command a little later
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-    Process process(words("model --samples 10 --disc-radius 0.1 --scene-side 1 --output " + pipe));
-    process.wait_until_it_listens();
-    process.send(SIGINT);
-    // A different signal, because a second SIGINT might be lost while the first is pending.
-    process.send(SIGTERM);
-    CHECK(process.finish().code == 130);
+    CHECK(in_attempts(5, [&] {
+      Process process(words("model --samples 10 --disc-radius 0.1 --scene-side 1 --output " + pipe));
+      process.wait_until_it_listens();
+      process.send(SIGINT);
+      // A different signal, because a second SIGINT might be lost while the first is pending.
+      process.send(SIGTERM);
+      return process.finish().code == 130;
+    }));
+  }
+
+  TEST_CASE("an output that nobody reads ends with the time limit, and with a signal") {
+    const support::ScratchFolder folder;
+    const std::string unopened = folder.path("unopened");
+    const std::string unread = folder.path("unread");
+    for (const std::string& pipe : {unopened, unread}) REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    const int reader = ::open(unread.c_str(), O_RDWR | O_CLOEXEC);
+    REQUIRE(reader >= 0);
+    const auto check = [](const Finished& finished, const std::string& pipe) {
+      CAPTURE(finished.err);
+      CHECK(finished.code == 3);
+      CHECK(finished.err.find("stopped while writing " + pipe + ": nobody reads it") != std::string::npos);
+    };
+    const std::string model = "model --samples 10 --disc-radius 0.1 --scene-side 1 --output " + unopened;
+    for (const std::string& pipe : {unopened, unread}) {
+      const std::string run = "run @cornell --rays 200k --technique box-tree --calibration none --pairs " + pipe;
+      for (const std::string& line : pipe == unopened ? std::vector{model, run} : std::vector{run}) {
+        CHECK(in_attempts(3, [&] {
+          const Finished finished = detp(line + " --time-limit 1");
+          check(finished, pipe);
+          return finished.seconds < 2.5;
+        }));
+        Process process(words(line));
+        process.wait_until_it_listens();
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        process.send(SIGTERM);
+        const Finished finished = process.finish();
+        if (line != model && finished.err.find("nobody reads") == std::string::npos) continue;  // still at work
+        check(finished, pipe);
+      }
+    }
+    ::close(reader);
   }
 
   TEST_CASE("neither signal handling nor a time limit delays the end of a command") {

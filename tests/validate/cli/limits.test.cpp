@@ -65,7 +65,27 @@ TEST_SUITE("end to end") {
         6e9, "run @uniform --rays 1000 --samples 100 --technique grid --threads 4096 --memory-limit 1G");
     CAPTURE(finished.err);
     CHECK(finished.code == 0);
-    CHECK(finished.err.find("threads only, not 4096") != std::string::npos);
+    CHECK(finished.err.find("of 4096 threads only") != std::string::npos);
+  }
+
+  TEST_CASE("without memory for any thread, one line says so") {
+    if (sanitized) return;
+    int refused = 0;
+    for (double addresses = 30e6; addresses < 400e6; addresses += 3e6) {  // a thread takes 8 MB
+      const Finished finished =
+          detp::support::detp_in(addresses, "model --samples 10 --disc-radius 0.1 --scene-side 1");
+      CAPTURE(addresses);
+      CAPTURE(finished.err);
+      if (finished.code == 0) break;
+      if (finished.code == 127) continue;  // the libraries are not loaded
+      REQUIRE(finished.signal == 0);
+      if (finished.code == 2 && finished.err.find("out of memory") != std::string::npos) continue;
+      CHECK(finished.code == 4);
+      CHECK(finished.err.starts_with("detp: the system starts no thread; "));
+      CHECK(finished.err.find('\n') + 1 == finished.err.size());
+      ++refused;
+    }
+    CHECK(refused > 0);
   }
 
   TEST_CASE("an allocation that fails nevertheless is reported as out of memory, by Embree too") {

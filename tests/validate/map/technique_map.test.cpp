@@ -9,6 +9,7 @@
 #include "detp/sim/files/file_error.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "support/scratch_file.hpp"
+#include "support/sealed.hpp"
 
 using namespace detp;
 using namespace detp::validate;
@@ -113,7 +114,7 @@ TEST_SUITE("identity") {
     file["state"].erase(file["state"].begin());
     for (nlohmann::json& one : file["state"].begin().value()["candidates"])
       if (one["seconds"].is_number()) one["seconds"] = 100 + one["seconds"].get<double>();
-    folder.file("map.json", file.dump());
+    folder.file("map.json", support::sealed_checkpoint(file));
     options.resume = true;
     const TechniqueMap again = make_map(scene_request(100), axes, options);
     const auto measured = [&](const TechniqueMap& one, std::size_t cell) {

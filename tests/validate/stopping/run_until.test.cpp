@@ -220,6 +220,27 @@ TEST_SUITE("stopping") {
     CHECK(*result.share_bound == doctest::Approx(-std::log(0.05) / result.photons));
   }
 
+  TEST_CASE("the noise of extreme irradiance is that of ordinary one") {
+    const auto noise_of = [](int exponent) {
+      PairedBatches batches(equal(3));
+      batches.add(std::vector{0.0, 0.0, 0.0}, 10);  // no light yet
+      for (int i = 1; i < 20; ++i)
+        batches.add(
+            std::vector{std::ldexp(1 + i % 3, exponent), std::ldexp(2 - i % 2, exponent), std::ldexp(0.5, exponent)},
+            10 + i);
+      CHECK(std::ilogb(batches.irradiance()[0]) == exponent);
+      return batches.noise(0.95);
+    };
+    const NoiseInterval usual = noise_of(0);
+    CHECK(std::isfinite(usual.high));
+    for (const int exponent : {-1000, -660, -300, 100, 300, 660, 1000}) {
+      const NoiseInterval extreme = noise_of(exponent);
+      CHECK(extreme.value == usual.value);
+      CHECK(extreme.low == usual.low);
+      CHECK(extreme.high == usual.high);
+    }
+  }
+
   TEST_CASE("bad targets, weights and batches are refused") {
     Light light{.discs = 2};
     for (const double wrong : {0.0, 1.0, -0.1, std::numeric_limits<double>::quiet_NaN()}) {
@@ -231,7 +252,15 @@ TEST_SUITE("stopping") {
     CHECK_THROWS_AS(static_cast<void>(run_until(batches_of(light), equal(3), {})), std::invalid_argument);
     CHECK_THROWS_AS(PairedBatches({0.5, 0.6}), std::invalid_argument);
     CHECK_THROWS_AS(PairedBatches({1.5, -0.5}), std::invalid_argument);
-    CHECK_THROWS_AS(PairedBatches({1.0}).add(std::vector{1.0}, 0), std::invalid_argument);
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    for (const double wrong : {0.0, -5.0, nan, infinite})
+      CHECK_THROWS_AS(PairedBatches({1.0}).add(std::vector{1.0}, wrong), std::invalid_argument);
+    for (const double wrong : {nan, infinite})
+      CHECK_THROWS_AS(PairedBatches({1.0}).add(std::vector{wrong}, 1), std::invalid_argument);
+    for (const double wrong : {0.0, -4.0, nan, infinite})
+      CHECK_THROWS_AS(static_cast<void>(run_until(batches_of(light), equal(2), {}, {.most_rays = wrong})),
+                      std::invalid_argument);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "support/scratch_file.hpp"
+#include "support/sealed.hpp"
 
 using namespace detp;
 using namespace detp::validate;
@@ -121,7 +122,7 @@ TEST_SUITE("checkpoint") {
     auto first = nlohmann::json::parse(content);
     REQUIRE(first.at("state").size() == 2);
     first["state"].erase(both[1].name());
-    folder.file("sweep.json", first.dump());
+    folder.file("sweep.json", support::sealed_checkpoint(first));
     options.resume = true;
     const SweepResult resumed = run_sweep(both, options);
     CHECK(resumed.resumed == 1);

@@ -17,7 +17,6 @@
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
-#include "detp/validate/cli/options/outputs.hpp"
 #include "detp/validate/cli/options/value_lists.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
@@ -215,18 +214,10 @@ std::optional<sim::Progress> find_answer(AccuracyAnswer& answer, sim::Scene& sce
   return std::nullopt;
 }
 
-void check_files(const AccuracyOptions& options, const CommonOptions& common) {
-  check_outputs(
-      {{"--output", common.output}, {"--reference", options.reference}, {"--checkpoint", options.checkpoint}});
-}
-
 Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const validate::AccuracyTarget target = target_of(options);
   const SeedRange seeds = options.seeds ? parse_seeds("--seeds", *options.seeds) : SeedRange{};
   if (options.seeds) validate::check_seeds(seeds.first, seeds.last);
-  if (options.resume && !options.checkpoint)
-    throw std::invalid_argument("--resume needs the --checkpoint FILE to continue from");
-  if (common.answers()) check_files(options, common);
   check_axes(options);
   const double most_rays = options.rays.value_or(1e9);
   require_count("--rays", most_rays, 1000, 1e12);

@@ -16,7 +16,6 @@
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
 #include "detp/validate/cli/options/costs_in_use.hpp"
-#include "detp/validate/cli/options/outputs.hpp"
 #include "detp/validate/cli/options/unit_cost_option.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
@@ -173,22 +172,19 @@ std::optional<Rigor> requested_rigor(const ChooseOptions& options) {
   return rigor;
 }
 
-void check_files(const ChooseOptions& options, const CommonOptions& common) {
+void check_options(const ChooseOptions& options) {
   if (options.map && options.ranks.ranks) throw std::invalid_argument("--ranks is for one workload, not for --map");
   if (options.ranks.ranks) require_count("--ranks", *options.ranks.ranks, 1, 1e6);
   require_positive("--network", options.ranks.bytes_per_second);
   if (options.checkpoint && !(options.map && options.analyze))
     throw std::invalid_argument("--checkpoint keeps the measured cells of --map with --analyze");
-  if (options.resume && !options.checkpoint)
-    throw std::invalid_argument("--resume needs the --checkpoint FILE to continue from");
-  check_outputs({{"--output", common.output}, {"--checkpoint", options.checkpoint}});
 }
 
 Result run_choose(ChooseOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const auto rigor = requested_rigor(options);
   const bool structural = rigor == Rigor::structural;
   const bool analyze = options.analyze || rigor == Rigor::measure;
-  check_files(options, common);
+  check_options(options);
   const std::vector<Technique> disabled = disabled_techniques(options);
   const Engine engine = parse_engine(options.engine);
   if (engine == Engine::plain && (rigor == Rigor::pilot || structural))

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "choose_map_report.hpp"
+#include "detp/sim/files/file_suffix.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/cli/options/unit_cost_option.hpp"
@@ -58,8 +59,8 @@ Json map_inputs(const ChooseMap& command, const validate::JobRequest& request, c
   return json;
 }
 
-void write_picture(const std::string& path, const std::string& svg) {
-  sim::OutputFile file(path);
+void write_picture(const std::string& path, const std::string& svg, const std::stop_token& stop) {
+  sim::OutputFile file(path, stop);
   file.write(svg);
   file.commit();
 }
@@ -87,10 +88,10 @@ Result run_choose_map(const ChooseMap& command, const CommonOptions& common, con
   for (const std::string& warning : map.warnings) note(common, "warning: " + warning);
   Result result;
   result.schema = "choose-map";
-  const bool picture = common.output && common.output->ends_with(".svg");
+  const bool picture = common.output && sim::suffix_of(*common.output) == ".svg";
   if (picture && !map.rows.empty())
     write_picture(*common.output,
-                  validate::map_svg(map, {validate::this_machine().cpu, "detp " DETP_VERSION, costs.origin}));
+                  validate::map_svg(map, {validate::this_machine().cpu, "detp " DETP_VERSION, costs.origin}), stop);
   result.output_is_written = picture;
   result.inputs = map_inputs(command, request, map, costs.of(command.engine));
   result.json = to_json(map);

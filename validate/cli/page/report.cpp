@@ -12,7 +12,6 @@
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/envelope.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
-#include "detp/validate/cli/options/outputs.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
 #include "detp/validate/cli/text/table.hpp"
 #include "detp/validate/picture/number_labels.hpp"
@@ -150,7 +149,7 @@ Result run_report(ReportOptions options, const CommonOptions& common, const std:
   result.json = std::move(report);
   Result shown = result;
   const Json whole = envelope("report", common, sim::thread_count(common.threads), shown);
-  sim::OutputFile file(*common.output);
+  sim::OutputFile file(*common.output, stop);
   file.write(validate::page_html(whole));
   file.commit();
   result.output_is_written = true;

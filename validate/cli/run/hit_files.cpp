@@ -20,7 +20,7 @@ void write_pairs(const std::string& path, const TimedRun& run, const std::vector
   }
   const std::vector<sim::Pair>& sorted = order.empty() ? run.outcome.pairs : pairs;
   sim::WritingCheck check(path, run.results ? run.results->pairs() : sorted.size(), "pairs", stop);
-  sim::OutputFile file(path);
+  sim::OutputFile file(path, stop);
   file.write("ray,disc\n");
   const auto write = [&](const sim::Pair& pair) {
     check.next();
@@ -36,7 +36,7 @@ void write_pairs(const std::string& path, const TimedRun& run, const std::vector
 void write_per_disc(const std::string& path, const TimedRun& run, const std::stop_token& stop) {
   const bool errors = run.results ? run.results->errors() : !run.outcome.standard_error.empty();
   sim::WritingCheck check(path, disc_count(run), "discs", stop);
-  sim::OutputFile file(path);
+  sim::OutputFile file(path, stop);
   file.write(errors ? "disc,hits,irradiance,standard_error,upper_bound\n" : "disc,hits,irradiance\n");
   std::uint64_t disc = 0;
   for_each_disc(run, [&](const sim::DiscResult& found) {

@@ -13,7 +13,6 @@
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
 #include "detp/validate/cli/options/costs_in_use.hpp"
-#include "detp/validate/cli/options/outputs.hpp"
 #include "detp/validate/cli/options/sphere_stops.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
@@ -109,6 +108,16 @@ Requested requested(const CandidateOptions& options, sim::Estimator estimator, c
           sim::thread_count(threads)};
 }
 
+/// What the options name and the candidate is not, as "leaf 16"; empty if it is all of it.
+std::string missing_in(const Candidate& candidate, const CandidateOptions& options) {
+  if (const Technique asked = options.technique_or(candidate.technique); asked != candidate.technique)
+    return std::string(name(asked));
+  for (const auto& [parameter, value] : options.fixed_parameters(candidate.technique).values)
+    if (find_parameter(candidate.technique, parameter)->get(candidate.parameters) != value)
+      return std::visit([&](const auto& one) { return fmt::format("{} {}", parameter, one); }, value);
+  return "";
+}
+
 /// Nothing if the option is not set. Throws std::invalid_argument for an unknown name.
 std::optional<sim::Share> share_of(const RunOptions& options) {
   if (!options.share) return std::nullopt;
@@ -138,15 +147,6 @@ void check_options(const RunOptions& options, std::size_t rows) {
   static_cast<void>(share_of(options));
   if (options.target.checkpoint && (!options.target.given() || rows > 1))
     throw std::invalid_argument("--checkpoint keeps one run with --target-noise or --target-error");
-  if (options.target.resume && !options.target.checkpoint)
-    throw std::invalid_argument("--resume needs the --checkpoint FILE to continue from");
-}
-
-void check_files(const RunOptions& options, const CommonOptions& common) {
-  check_outputs({{"--output", common.output},
-                 {"--per-disc", options.per_disc},
-                 {"--pairs", options.pairs},
-                 {"--checkpoint", options.target.checkpoint}});
 }
 
 /// Returns the progress if a stop request ended the run, the writing or the timed runs; else nothing.
@@ -229,7 +229,7 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
       searches && !options.candidate.technique && validate::reachable_rigor(question, costs) == Rigor::pilot;
   const CostTable priced = validate::costs_for(question, costs);
   const auto by_options = [&] { return requested(options.candidate, estimator, job, priced, common.threads); };
-  const Requested choice = by_pilot ? Requested{} : agreed(ranks, by_options);
+  const Requested choice = by_pilot || until ? Requested{} : agreed(ranks, by_options);
   RunAnswer answer{.candidate = choice.candidate,
                    .estimator = estimator,
                    .threads = choice.threads,
@@ -240,7 +240,15 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
                    .random_rays = !options.workload.request(common).ray_file};
   if (until) {
     const double most_rays = options.workload.request(common).rays.value_or(most_rays_by_default);
-    run_to_target(answer, job, options.target, most_rays, by_pilot, common.threads, stop, progress, ranks);
+    const auto choose = [&]() -> Requested {
+      if (!by_pilot) return by_options();
+      const validate::Choice chosen = validate::choose(question, priced);
+      return {chosen.best().candidate, chosen.best().threads};
+    };
+    const auto missing = [&](const Candidate& candidate) {
+      return searches ? missing_in(candidate, options.candidate) : std::string();
+    };
+    run_to_target(answer, job, options.target, most_rays, {choose, missing}, common.threads, stop, progress, ranks);
     return answer;
   }
   const Engine engine = options.candidate.engine;
@@ -305,7 +313,6 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   ValueLists& candidates = options.candidate.lists;
   const std::size_t expected = rows_in(problems, candidates);
   check_options(options, expected);
-  if (common.answers()) check_files(options, common);
   const Needs needs = needs_of(options, candidates.rows());
   const CostsInUse costs = options.costs.costs(common);
   const ProgressLine progress(common.quiet);

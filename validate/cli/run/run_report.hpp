@@ -24,7 +24,6 @@ struct UntilAnswer {
   double confidence = 0;
   validate::UntilResult result = {};
   std::optional<BiasEstimate> bias = {};
-  double choosing_seconds = 0;
   double seconds = 0;  ///< with choosing, the bias's pilot, tracing and building
 
   /// Noise and bias together; without a known bias the noise.

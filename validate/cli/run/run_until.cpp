@@ -9,6 +9,7 @@
 #include "agreed.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/accuracy/accuracy_pilot.hpp"
 #include "detp/validate/checkpoint/checkpoint_file.hpp"
@@ -55,11 +56,11 @@ BiasEstimate bias_of(const validate::Job& job, sim::Estimator estimator, double 
   }
 }
 
-/// All that decides what a run finds.
+/// All that decides what a run finds, but for its candidate: techniques find the same.
 Json key_of(const RunAnswer& answer, const validate::Job& job, const UntilAnswer& until, double most_rays) {
   return {{"seed", job.seed},
           {"estimator", name(answer.estimator)},
-          {"technique", has_technique(answer) ? describe(answer.candidate) : "none"},
+          {"nearest", answer.estimator == sim::Estimator::nearest ? describe(answer.candidate) : "none"},
           {"engine", name(answer.engine)},
           {"target", until.target},
           {"target of", until.total ? "noise and bias" : "noise"},
@@ -76,6 +77,8 @@ std::optional<validate::SavedRun> read(const validate::CheckpointFile& file, con
   try {
     return validate::saved_run_of(*state);
   } catch (const nlohmann::json::exception& error) {
+    throw file.damaged(error.what());
+  } catch (const std::invalid_argument& error) {
     throw file.damaged(error.what());
   }
 }
@@ -99,26 +102,25 @@ double first_rays(std::optional<double> most_rays) {
 }
 
 void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOptions& options, double most_rays,
-                   bool choose, int threads, const std::stop_token& stop, const sim::ReportPhase& progress,
-                   sim::Ranks* ranks) {
+                   const CandidateOfRun& candidate, int threads, const std::stop_token& stop,
+                   const sim::ReportPhase& progress, sim::Ranks* ranks) {
   const sim::Stopwatch watch;
   validate::ErrorTarget target = options.target();
   UntilAnswer until{.target = target.error, .total = options.error.has_value(), .confidence = target.confidence};
-  if (choose) {
-    const Requested chosen = agreed(ranks, [&]() -> Requested {
-      const validate::Choice choice = validate::choose({.problem = &job.problem(),
-                                                        .effects = job.measuring.effects,
-                                                        .surface = &job.surface,
-                                                        .purpose = validate::Purpose::one_search,
-                                                        .threads = threads,
-                                                        .stop = stop},
-                                                       answer.costs);
-      until.choosing_seconds = choice.choosing_seconds;
-      return {choice.best().candidate, choice.best().threads};
-    });
-    answer.candidate = chosen.candidate;
-    answer.threads = chosen.threads;
-  }
+  const double limit = job.rays_from_file ? static_cast<double>(job.rays.size()) : most_rays;
+  std::optional<validate::CheckpointFile> file;
+  std::optional<validate::SavedRun> saved;
+  const Requested chosen = agreed(ranks, [&]() -> Requested {  // on rank 0
+    if (options.checkpoint) file.emplace(*options.checkpoint, "run until an error", key_of(answer, job, until, limit));
+    if (options.checkpoint && options.resume) saved = read(*file, stop);
+    if (!saved) return candidate.choose();
+    if (const std::string missing = candidate.missing(saved->candidate); !missing.empty())
+      throw sim::FileError(*options.checkpoint, fmt::format("was made with {}, not {}; start again without it",
+                                                            describe(saved->candidate), missing));
+    return {saved->candidate, sim::thread_count(threads)};
+  });
+  answer.candidate = chosen.candidate;
+  answer.threads = chosen.threads;
   const auto search_here = [&] {
     return validate::JobSearch(job, answer.estimator, answer.candidate,
                                {.engine = answer.engine, .stop = stop, .threads = answer.threads});
@@ -132,13 +134,6 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   if (until.total && has_bias(job)) {
     until.bias = bias_of(job, answer.estimator, target.error, most_pilot_rays, threads, stop);
     target.bias_squared = until.bias->squared;
-  }
-  const double limit = job.rays_from_file ? static_cast<double>(job.rays.size()) : most_rays;
-  std::optional<validate::CheckpointFile> file;
-  std::optional<validate::SavedRun> saved;
-  if (options.checkpoint) {
-    file.emplace(*options.checkpoint, "run until an error", key_of(answer, job, until, limit));
-    if (options.resume) saved = read(*file, stop);
   }
   validate::JobSearch search = search_here();
   validate::SharedBatches batches(job, search, stop, ranks);
@@ -155,7 +150,7 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   validate::SaveExecuted save;
   if (file)
     save = [&](const std::function<validate::UntilState()>& state, const validate::ExecutedUntil& so_far) {
-      if (file->due() || stop.stop_requested()) file->write(validate::json_of(state(), so_far));
+      if (file->due() || stop.stop_requested()) file->write(validate::json_of(answer.candidate, state(), so_far));
     };
   validate::ExecutedUntil found = validate::execute_until(
       [&](std::uint64_t rays, std::uint64_t following) { return batches.next(rays, following); },

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
+#include "agreed.hpp"
 #include "detp/validate/stopping/execute_until.hpp"
 #include "run_report.hpp"
 
@@ -24,11 +26,19 @@ struct TargetOptions {
 /// Rays of the job of such a run, with which it begins: `--rays` is the limit.
 [[nodiscard]] double first_rays(std::optional<double> most_rays);
 
-/// Fills in the answer's outcome, times and `until`. Goes on from the checkpoint if it is to resume; keeps one, also when it is stopped. `answer` has the estimator, and unless `choose`, the candidate and its threads.
-/// The job has its scene, if photons were traced in one. Ranks share the rays that follow the job's own.
+/// How a run until an error comes to its candidate.
+struct CandidateOfRun {
+  std::function<Requested()> choose;  ///< where there is no checkpoint to go on from
+  /// What the user asked for by name and the checkpoint's candidate is not, in words; empty if it is all of it.
+  std::function<std::string(const Candidate&)> missing;
+};
+
+/// Fills in the answer's candidate, outcome, times and `until`. Goes on from the checkpoint, with its candidate, if it is to resume; keeps
+/// one, also when it is stopped. `answer` has the estimator. The job has its scene, if photons were traced in one. Ranks share the rays
+/// that follow the job's own.
 void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOptions& options, double most_rays,
-                   bool choose, int threads, const std::stop_token& stop, const sim::ReportPhase& progress,
-                   sim::Ranks* ranks = nullptr);
+                   const CandidateOfRun& candidate, int threads, const std::stop_token& stop,
+                   const sim::ReportPhase& progress, sim::Ranks* ranks = nullptr);
 
 /// What the JSON of a run has in addition.
 [[nodiscard]] Json to_json(const UntilAnswer& until);

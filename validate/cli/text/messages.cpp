@@ -12,6 +12,7 @@
 
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/files/file_error.hpp"
+#include "detp/sim/files/output_file.hpp"
 
 namespace detp::cli {
 namespace {
@@ -40,8 +41,10 @@ void prepare_streams() {
     if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-void write_result(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) throw_write_error();
+void write_result(const std::string& text, const std::stop_token& stop) {
+  sim::OutputFile file("/dev/stdout", stop);
+  file.write(text);
+  file.commit();
 }
 
 void check_written() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -14,8 +15,8 @@ namespace detp::cli {
 /// opened.
 void prepare_streams();
 
-/// Writes to stdout. If this fails, throws sim::FileError with the system's reason.
-void write_result(const std::string& text);
+/// Writes to stdout. If this fails, throws sim::FileError with the system's reason; sim::Stopped as sim::OutputFile does.
+void write_result(const std::string& text, const std::stop_token& stop = {});
 
 /// Throws sim::FileError if std::cout could not be written.
 void check_written();

@@ -97,7 +97,7 @@ Json cells_of(const Deviation& row) {
 
 }  // namespace
 
-void write_sweep_rows(const std::string& path, const std::vector<Deviation>& deviations) {
+void write_sweep_rows(const std::string& path, const std::vector<Deviation>& deviations, const std::stop_token& stop) {
   struct Row {
     const Deviation* any = nullptr;
     std::string published = {};
@@ -117,7 +117,7 @@ void write_sweep_rows(const std::string& path, const std::vector<Deviation>& dev
     row.exact = row.exact && observed.standard_error == 0 && observed.mean == deviation.predicted;
     (deviation.form == Form::published ? row.published : row.corrected) = fmt::format("{:.5g}", deviation.predicted);
   }
-  sim::OutputFile file(path);
+  sim::OutputFile file(path, stop);
   file.write(
       "dimension,samples,disc_share,technique,parameters,quantity,sphere,published,corrected,observed,"
       "standard_error\n");

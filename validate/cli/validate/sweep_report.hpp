@@ -16,6 +16,7 @@ void report_sweep(const validate::SweepResult& sweep, const Screen& screen, Tabl
 /// Writes the comparisons as CSV: one row for each compared count, with the predictions of both forms. Counts that are
 /// the same in every set and equal their prediction are left out. Predictions and observations have five digits,
 /// standard errors two. Throws sim::FileError.
-void write_sweep_rows(const std::string& path, const std::vector<validate::Deviation>& deviations);
+void write_sweep_rows(const std::string& path, const std::vector<validate::Deviation>& deviations,
+                      const std::stop_token& stop = {});
 
 }  // namespace detp::cli

@@ -3,7 +3,6 @@
 #include "detp/validate/claims/experiments.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
-#include "detp/validate/cli/options/outputs.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/report/columns.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
@@ -233,8 +232,6 @@ void check_effort(const ValidateOptions& options, const validate::JobRequest& re
     throw std::invalid_argument("give one of --effort thorough and --until-relative-error");
   if (!options.thorough && !until && (options.sweep.checkpoint || options.sweep.resume))
     throw std::invalid_argument("--checkpoint and --resume belong to --effort thorough and to --until-relative-error");
-  if (options.sweep.resume && !options.sweep.checkpoint)
-    throw std::invalid_argument("--resume needs the --checkpoint FILE to continue from");
   if (options.thorough && !request.numbers_alone())
     throw std::invalid_argument("--effort thorough has workloads of its own; it takes no scene");
   require_count("--most-samples", options.most_samples, 1e3, 1e18);
@@ -254,19 +251,12 @@ validate::SweepOptions sweep_options(const ValidateOptions& options, const Commo
   return sweep;
 }
 
-void check_files(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
-  Output checkpoint{"--checkpoint", std::nullopt};
-  if (options.sweep.checkpoint) checkpoint.path = options.sweep.checkpoint->string();
-  check_outputs({{"--output", common.output}, checkpoint, {"--sweep-rows", options.sweep_rows}});
-  if (options.thorough) validate::check_checkpoint(points_of(options), sweep_options(options, common, stop));
-}
-
 void sweep(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop,
            const ProgressLine& progress, Table& table, Result& result) {
   validate::SweepOptions sweep = sweep_options(options, common, stop);
   sweep.progress = sim::part_of(progress.report(), share_of_claims, 1);
   const validate::SweepResult measured = validate::run_sweep(points_of(options), sweep);
-  if (options.sweep_rows) write_sweep_rows(*options.sweep_rows, measured.deviations);
+  if (options.sweep_rows) write_sweep_rows(*options.sweep_rows, measured.deviations, stop);
   report_sweep(measured, common.screen(), table, result);
 }
 
@@ -274,7 +264,8 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   check_effort(options, options.workload.request(common, false));
   static_cast<void>(options.until.target());
   const std::vector<validate::ExperimentStep> steps = steps_of(options);
-  if (common.answers()) check_files(options, common, stop);
+  if (common.answers() && options.thorough)
+    validate::check_checkpoint(points_of(options), sweep_options(options, common, stop));
   const ProgressLine progress(common.quiet);
   Result result;
   const validate::Experiment experiment =

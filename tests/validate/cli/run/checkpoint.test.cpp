@@ -3,7 +3,10 @@
 #include <cstdlib>
 #include <random>
 
+#include "detp/validate/calibration/built_in_costs.hpp"
+#include "detp/validate/calibration/calibration_file.hpp"
 #include "support/run_support.hpp"
+#include "support/sealed.hpp"
 
 namespace detp::support {
 namespace {
@@ -142,16 +145,63 @@ TEST_SUITE("end to end") {
       std::ofstream(path) << text;
       return Refusal(run + "--resume --checkpoint " + path, named);
     };
-    const std::string other = std::regex_replace(content, std::regex("\"run until an error\""), "\"validate\"");
-    const std::string fewer = std::regex_replace(content, std::regex("\"sums\":\\[[^,]*,"), "\"sums\":[");
+    const auto replaced = [&](const char* what, const char* by) {
+      return std::regex_replace(content, std::regex(what), by);
+    };
+    const std::string other = sealed_checkpoint(Json::parse(replaced("\"run until an error\"", "\"validate\"")));
+    const std::string fewer = sealed_checkpoint(Json::parse(replaced("\"sums\":\\[[^,]*,", "\"sums\":[")));
+    const std::string altered = replaced("(\"sums\":\\[[0-9.]*)[0-4]", "$017");
     check_refused({resumed(content.substr(0, content.size() / 2), "is not a checkpoint"),
                    resumed(other, "is a checkpoint of \"validate\""),
                    resumed(fewer, "another number of discs"),
+                   resumed(altered, "does not fit its checksum"),
                    {run + "--seed 2 --resume --checkpoint " + checkpoint, "was made with seed 1, not 2"},
                    {run + "--disc-radius 3% --resume --checkpoint " + checkpoint, "digest of rays and discs"},
                    {run + "--resume", "--checkpoint"},
                    {"run @cornell --checkpoint " + checkpoint, "--target-noise"},
                    {run + "--checkpoint " + folder.path("missing/c"), "cannot be written"}});
+  }
+}
+
+TEST_SUITE("end to end") {
+  TEST_CASE("a resumed run keeps the technique of its checkpoint, unless another one is asked for by name") {
+    const ScratchFolder folder;
+    const std::string checkpoint = folder.path("checkpoint.json");
+    const auto calibration = [&](const std::string& name, double factor) {  // of the tests of rays with discs
+      validate::Calibration made;
+      made.plain.costs = validate::built_in_unit_costs(Engine::plain);
+      made.simd.costs = validate::built_in_unit_costs();
+      for (const Technique technique : all_techniques) made.simd.costs[technique].disc_test *= factor;
+      validate::write_calibration(folder.path(name), made);
+      return " --calibration " + folder.path(name);
+    };
+    const std::string cheap = calibration("cheap.json", 0.01);
+    const std::string dear = calibration("dear.json", 100);
+    const std::string common = "run @cornell --field isotropic --threads 1";
+    REQUIRE(result_of(common + " --technique box-tree" + cheap)["parameters"] !=
+            result_of(common + " --technique box-tree" + dear)["parameters"]);
+    for (const std::string& asked : {std::string(" --technique box-tree"), std::string()}) {
+      CAPTURE(asked);
+      std::string run;
+      for (const char* noise : {"5%", "3%", "2%", "1%", "0.5%"}) {
+        std::filesystem::remove(checkpoint);
+        run = common + " --target-noise " + noise;
+        const Finished stopped = stopped_in_time(run + asked + cheap + " --format json --checkpoint " + checkpoint,
+                                                 [&](const Finished&) { return !content_of(checkpoint).empty(); });
+        if (stopped.code == 3) break;
+      }
+      const Json kept = Json::parse(content_of(checkpoint)).at("state");
+      const std::string before = content_of(checkpoint);
+      const std::string technique = kept.at("technique");
+      const std::string resume = dear + " --resume --checkpoint " + checkpoint;
+      const std::string other = technique == "octree" ? "grid" : "octree";
+      check_refused({{run + " --technique " + other + resume, ", not " + other},
+                     {run + " --technique " + technique + " --leaf 77" + resume, ", not leaf 77"}});
+      CHECK(content_of(checkpoint) == before);
+      const Json resumed = result_of(run + asked + resume);
+      CHECK(resumed.at("technique") == technique);
+      CHECK(resumed.at("parameters") == kept.at("parameters"));
+    }
   }
 }
 

@@ -48,7 +48,7 @@ TEST_SUITE("bad input") {
                              shell.folder.path("err") + "; echo $? >" + shell.folder.path("own") + "; } | true";
     CHECK(std::system(line.c_str()) == 0);
     CHECK(content_of(shell.folder.path("own")) == "2\n");
-    CHECK(shell.err() == "detp: /dev/stdout: cannot be written: Broken pipe\n");
+    CHECK(shell.err() == "detp: standard output: cannot be written: Broken pipe\n");
   }
 
   TEST_CASE("closed and full output ends with code 2; closed input and messages do no harm") {
@@ -98,7 +98,9 @@ TEST_SUITE("end to end") {
     const Finished limited = detp(run + words("--time-limit 0.1"));
     CHECK(limited.code == 3);
     CHECK(limited.err.find("stopped while reading") != std::string::npos);
-    const Finished resumed = detp("validate --effort thorough --resume --time-limit 0.1 --checkpoint " + pipe);
+    const std::string checkpoint = folder.path("pipe");
+    REQUIRE(::mkfifo(checkpoint.c_str(), 0600) == 0);
+    const Finished resumed = detp("validate --effort thorough --resume --time-limit 0.1 --checkpoint " + checkpoint);
     CHECK(resumed.code == 3);
     Process process(run);
     process.wait_until_it_listens();

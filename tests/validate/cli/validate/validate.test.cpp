@@ -164,7 +164,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("the sweep's options are refused without a sweep") {
-    check_refused({{"validate --resume", "--effort thorough"},
+    check_refused({{"validate --resume", "--resume needs the --checkpoint"},
                    {"validate --checkpoint x.json", "--effort thorough"},
                    {"validate --most-samples 1000", "--effort thorough"},
                    {"validate --sweep-rows rows.csv", "--effort thorough"},
