@@ -28,10 +28,14 @@ struct LandedAt {
 /// Keeps pieces that end on a surface. PhotonWalk tells of each piece before it tells of its surface.
 struct Landings {
   const Mesh& mesh;
+  StopCheck check;
   std::vector<Ray> rays = {};
   std::vector<LandedAt> landings = {};
 
-  void piece(const Ray& ray, double) { last = ray; }
+  void piece(const Ray& ray, double) {
+    check.after(1024);
+    last = ray;
+  }
   void met(std::uint32_t triangle, double, bool) {
     const auto& [a, b, c] = mesh.triangles[triangle];
     const glm::dvec3 corner = mesh.positions[a];
@@ -40,18 +44,15 @@ struct Landings {
     rays.push_back(last);
     landings.push_back({glm::dot(corner - last.origin, normal) / cosine, cosine < 0 ? normal : -normal, cosine < 0});
   }
-  void escaped(double) {}
-  void cut_off(double) {}
 
   Ray last = {};
 };
 
 Landings traced(const PhotonWalk& walk, const Mesh& mesh, const std::stop_token& stop) {
-  Landings all{mesh};
-  StopCheck check(stop, "tracing photons");
+  Landings all{mesh, StopCheck(stop, "tracing photons")};
   for (std::uint64_t photon = 0; photon < most_photons && all.rays.size() < enough_pieces; ++photon) {
     walk.follow(photon, all);
-    check.after(1024);
+    all.check.after(1024);
   }
   return all;
 }
@@ -64,6 +65,7 @@ struct Power {
 
 std::vector<Power> hits_of(const Landings& all, std::span<const Disc> discs, bool front_facing,
                            const std::stop_token& stop) {
+  if (all.rays.empty()) return {};  // no light meets a surface
   const Problem problem = make_problem(all.rays, discs, front_facing, 1, stop);
   RunOptions options{.count = false, .pairs = true, .stop = stop};
   const Outcome outcome = run(problem, Candidate{Technique::box_tree, BoxTreeParameters{}}, options);

@@ -1,5 +1,8 @@
 #include "mesh_file.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -9,6 +12,7 @@
 #include "input_file.hpp"
 #include "obj_file.hpp"
 #include "ply.hpp"
+#include "polygon.hpp"
 
 namespace detp::sim {
 namespace {
@@ -17,11 +21,12 @@ bool is_finite(const glm::dvec3& vector) {
   return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
 }
 
-std::uint32_t checked_index(const std::string& path, std::uint64_t face, double index, std::uint64_t vertices) {
+std::uint32_t checked_index(const std::string& path, const char* what, std::uint64_t number, double index,
+                            std::uint64_t vertices) {
   if (index >= 0 && index < static_cast<double>(vertices) && index <= UINT32_MAX && std::floor(index) == index)
     return static_cast<std::uint32_t>(index);
-  throw FileError(path, "face " + std::to_string(face + 1) + ": index out of range; expected whole numbers from 0 to " +
-                            std::to_string(vertices - 1));
+  throw FileError(path, std::string(what) + " " + std::to_string(number + 1) +
+                            ": index out of range; expected whole numbers from 0 to " + std::to_string(vertices - 1));
 }
 
 /// The places of three properties in the element; empty if it lacks one of them.
@@ -35,12 +40,17 @@ std::vector<std::size_t> places_of(const PlyElement& element, const std::array<c
 class PlyMeshReader {
  public:
   PlyMeshReader(const std::string& path, std::stop_token stop)
-      : path_(path), file_(path, std::move(stop)), memory_(path) {}
+      : path_(path), file_(path, stop), memory_(path), check_(std::move(stop), "reading polygons") {}
 
   Mesh read() {
     std::vector<PlyRequest> requests{vertex_request()};
-    if (const PlyElement* face = file_.element("face")) requests.push_back(face_request(*face));
+    const PlyElement* strips = file_.element("tristrips");
+    if (strips != nullptr) requests.push_back(list_request(*strips, &PlyMeshReader::add_strip));
+    if (const PlyElement* face = file_.element("face"); face != nullptr && (face->rows > 0 || strips == nullptr))
+      requests.push_back(list_request(*face, &PlyMeshReader::add_face));
     file_.read(requests);
+    for (auto& [face, corners] : late_) divide(face, corners);
+    mesh_.polygons = triangulator_.counts();
     return std::move(mesh_);
   }
 
@@ -63,20 +73,52 @@ class PlyMeshReader {
     return request;
   }
 
-  PlyRequest face_request(const PlyElement& face) {
+  using AddRow = void (PlyMeshReader::*)(std::uint64_t, const std::vector<double>&);
+
+  PlyRequest list_request(const PlyElement& element, AddRow add) {
     for (const char* name : {"vertex_indices", "vertex_index"})
-      if (const auto place = face.property(name, true))
-        return {.element = "face",
+      if (const auto place = element.property(name, true))
+        return {.element = element.name,
                 .properties = {*place},
-                .on_row = [this](std::uint64_t row, const PlyValues& values) { add_face(row, values[0]); }};
-    throw FileError(path_, "its element face has no list vertex_indices");
+                .on_row = [this, add](std::uint64_t row, const PlyValues& values) { (this->*add)(row, values[0]); }};
+    throw FileError(path_, "its element " + element.name + " has no list vertex_indices");
   }
 
   void add_face(std::uint64_t face, const std::vector<double>& corners) {
     if (corners.size() < 3) throw FileError(path_, "face " + std::to_string(face + 1) + ": needs at least 3 corners");
-    const auto corner = [&](std::size_t i) { return checked_index(path_, face, corners[i], vertices_); };
-    for (std::size_t i = 2; i < corners.size(); ++i)
-      memory_.push(mesh_.triangles, {corner(0), corner(i - 1), corner(i)});
+    polygon_.clear();
+    for (const double one : corners) polygon_.push_back(checked_index(path_, "face", face, one, vertices_));
+    if (mesh_.positions.size() == vertices_)
+      divide(face, polygon_);
+    else
+      late_.emplace_back(face, polygon_);
+  }
+
+  /// Each corner makes a triangle with the two before it, of alternating orientation; -1 begins anew.
+  void add_strip(std::uint64_t strip, const std::vector<double>& corners) {
+    std::size_t length = 0;
+    std::array<std::uint32_t, 3> last{};
+    for (const double one : corners) {
+      length = one == -1 ? 0 : length + 1;
+      if (length == 0) continue;
+      last = {last[1], last[2], checked_index(path_, "strip", strip, one, vertices_)};
+      const auto& [a, b, c] = last;
+      if (length < 3 || a == b || b == c || c == a) continue;  // a strip turns by corners that are repeated
+      memory_.push(mesh_.triangles, length % 2 == 1 ? last : std::array{b, a, c});
+    }
+  }
+
+  void divide(std::uint64_t face, std::vector<std::uint32_t>& polygon) {
+    if (polygon.size() > 3) {  // without corners that follow themselves
+      polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
+      while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
+      if (polygon.size() < 3) throw FileError(path_, "face " + std::to_string(face + 1) + ": needs at least 3 corners");
+    }
+    corners_.clear();
+    for (const std::uint32_t corner : polygon) corners_.push_back(mesh_.positions[corner]);
+    pieces_.clear();
+    triangulator_.divide(corners_, check_, pieces_);
+    for (const auto& [a, b, c] : pieces_) memory_.push(mesh_.triangles, {polygon[a], polygon[b], polygon[c]});
   }
 
   const std::string& path_;
@@ -84,6 +126,13 @@ class PlyMeshReader {
   KeptMemory memory_;
   Mesh mesh_;
   std::uint64_t vertices_ = 0;  ///< number of vertices that the header declares
+  Triangulator triangulator_;
+  StopCheck check_;
+  std::vector<std::uint32_t> polygon_;
+  std::vector<glm::dvec3> corners_;
+  std::vector<std::array<std::uint32_t, 3>> pieces_;
+  std::vector<std::pair<std::uint64_t, std::vector<std::uint32_t>>>
+      late_;  ///< faces before the vertices, and their numbers
 };
 
 /// Throws FileError if a vector that a face uses is not finite.
@@ -106,6 +155,22 @@ std::size_t reset_not_finite(std::vector<glm::dvec3>& vectors) {
   return count;
 }
 
+/// Sets normals that are not finite to 0, for which others are made, and counts the corners with such.
+void reset_normals(Mesh& mesh) {
+  if (mesh.normals.empty()) return;
+  reset_not_finite(mesh.normals);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) mesh.normals_made += mesh.normals[corner] == glm::dvec3{0.0} ? 1 : 0;
+}
+
+void note_geometry(const Mesh& mesh, Notices& notices) {
+  const auto note = [&](std::uint64_t count, const char* what) {
+    if (count > 0) notices.push_back(fmt::format("{}: {}", what, count));
+  };
+  note(mesh.polygons.degenerate, "faces without area, or that cross themselves");
+  note(mesh.normals_made, "corners whose normal is missing, zero or not finite, with that of the faces around");
+}
+
 }  // namespace
 
 Mesh read_mesh(const std::string& path, Notices& notices, std::stop_token stop) {
@@ -115,10 +180,10 @@ Mesh read_mesh(const std::string& path, Notices& notices, std::stop_token stop) 
   Mesh mesh = is_ply ? PlyMeshReader(path, std::move(stop)).read() : read_obj(path, notices, std::move(stop));
   if (mesh.triangles.empty()) throw FileError(path, "has no faces; a mesh needs at least one");
   check_used(mesh, mesh.positions, path, "position");
-  if (!mesh.normals.empty()) check_used(mesh, mesh.normals, path, "normal");
   if (const std::size_t count = reset_not_finite(mesh.positions))
     notices.push_back("unused positions that are not finite, set to 0: " + std::to_string(count));
-  reset_not_finite(mesh.normals);
+  if (is_ply) reset_normals(mesh);
+  note_geometry(mesh, notices);
   return mesh;
 }
 

@@ -16,13 +16,16 @@ namespace detp::sim {
 ///
 /// Kd    diffuse share; Ke radiance; Ks specular share.
 /// Ns    shininess; below 1, or with illum 0 or 1, Ks is ignored; from 1000, or with illum 3 or 5, a mirror.
-/// Glass with illum 4, 6, 7 or 9, or if d < 1 (Tr > 0): the share 1 - d of the light, or all of it if illum says so and
-///       d = 1, goes through a boundary of index Ni (1.5 if it is not given, 1 or below 0.1); the other shares are of the
-///       rest.
-/// If diffuse and specular shares add up to more than 1, both are scaled down. Textures are ignored. A file that is
-/// not there gives no material and a notice, as do scaled shares and textures. Throws FileError for a number that cannot
-/// be read, is not finite or negative, for a radiance below the range of normal doubles, and for a statement before the
-/// first newmtl.
+/// d     opacity; without it 1 - Tr, without both 1. d 0, and Tr 1 without d unless illum is 3 or more, count as opaque: exporters
+///       write them for opaque surfaces.
+/// Glass the share 1 - opacity of the light goes through a boundary of index Ni (1.5 if it is not given, 1 or below 0.1); the other
+///       shares are of the rest. illum alone makes no glass.
+/// Kd and Ks of 1 or more together cannot be meant as shares: Kd is lowered to 0.98, Ks to half of what is then left of 0.98. A
+/// single share of 1 is kept: the material absorbs nothing.
+///
+/// Each of these rules gives a notice with the names of materials. So do textures, which are ignored, colours other than RGB,
+/// numbers out of range, and a file that is not there. Keywords may have other capitals. Throws FileError for a number that cannot
+/// be read, for colours that are not finite or negative, and for a radiance below the range of normal doubles.
 [[nodiscard]] std::vector<Material> read_mtl(const std::string& path, Notices& notices, std::stop_token stop = {});
 
 }  // namespace detp::sim

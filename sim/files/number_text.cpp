@@ -9,7 +9,7 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::string_view blanks = " \t";
+constexpr std::string_view blanks = " \t\v\f";
 
 template <class Number>
 std::errc parse_whole(std::string_view text, Number& number) {

@@ -11,13 +11,13 @@ namespace detp::sim {
 /// infinite; numbers too near to zero become zero. Surrounding spaces are not accepted.
 [[nodiscard]] std::optional<double> number_in(std::string_view text);
 
-/// The text without leading and trailing spaces and tabs.
+/// The text without leading and trailing blanks: spaces, tabs, form feeds.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
 /// Returns the text up to the first character of `separators`; removes this text and the separator from `text`.
 [[nodiscard]] std::string_view cut_until(std::string_view& text, std::string_view separators);
 
-/// Returns the next word, a run of characters other than space and tab, and removes it from the front of `text`; empty
+/// Returns the next word, a run of characters other than blanks, and removes it from the front of `text`; empty
 /// at the end.
 [[nodiscard]] std::string_view cut_word(std::string_view& text);
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <limits>
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -17,12 +17,11 @@
 #include "file_error.hpp"
 #include "mtl_file.hpp"
 #include "number_text.hpp"
+#include "polygon.hpp"
 #include "statements.hpp"
 
 namespace detp::sim {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// If the sum of n unit normals is shorter than n·least_sum, the normals count as cancelling: the sum is only rounding.
 constexpr double least_sum = 1e-6;
@@ -52,10 +51,12 @@ struct HashOfName {
 /// The paths that mtllib lines name, each once.
 class Libraries {
  public:
-  /// `names` is one name, which may contain blanks; if there is no such file, the words are names.
+  /// `names` is one name, which may contain blanks; if there is no such file, the words before a comment are names.
   void add(const std::string& obj, std::string_view names) {
     std::error_code ignored;
-    const bool is_one = std::filesystem::exists(beside(obj, names), ignored);
+    const auto exists = [&](std::string_view name) { return std::filesystem::exists(beside(obj, name), ignored); };
+    if (!exists(names)) names = without_comment(names);
+    const bool is_one = exists(names);
     for (std::string_view words = names, word = is_one ? names : cut_word(words); !word.empty();
          word = is_one ? std::string_view{} : cut_word(words))
       if (known_.emplace(word).second) paths_.push_back(beside(obj, word));
@@ -77,22 +78,27 @@ struct Corner {
 class ObjReader {
  public:
   ObjReader(const std::string& path, std::stop_token stop)
-      : path_(path), stop_(stop), lines_(path, obj_format, std::move(stop)), memory_(path) {}
+      : path_(path),
+        stop_(stop),
+        lines_(path, obj_format, stop),
+        memory_(path),
+        check_(std::move(stop), "reading polygons") {}
 
   Mesh read(Notices& notices) {
     while (lines_.next()) {
       if (lines_.keyword() == "v") add_position();
       if (lines_.keyword() == "vn") add_normal();
-      if (lines_.keyword() == "f") add_face();
-      if (lines_.keyword() == "usemtl") use_material(trimmed(lines_.rest()));
-      if (lines_.keyword() == "mtllib") libraries_.add(path_, trimmed(lines_.rest()));
+      if (lines_.keyword() == "f" || lines_.keyword() == "fo") add_face();
+      if (lines_.keyword() == "usemtl") use_material(lines_.name());
+      if (lines_.keyword() == "mtllib") libraries_.add(path_, lines_.name());
     }
+    if (needed_ > mesh_.positions.size())
+      throw FileError(path_, line_of_needed_, out_of_range(static_cast<long long>(needed_), mesh_.positions.size()));
     lines_.note_unknown(notices);
+    divide_late_polygons();
+    mesh_.polygons = triangulator_.counts();
     add_materials(notices);
-    if (!normals_.empty() && all_used_have_normals()) {
-      memory_.reserve(mesh_.normals, at_positions_.size());
-      for (const CornerNormals& normals : at_positions_) mesh_.normals.push_back(normals.vector());
-    }
+    add_normals();
     return std::move(mesh_);
   }
 
@@ -105,16 +111,60 @@ class ObjReader {
   void add_normal() {
     const glm::dvec3 normal = vector_in_line();
     const bool finite = std::isfinite(normal.x) && std::isfinite(normal.y) && std::isfinite(normal.z);
-    memory_.push(normals_, finite ? unit_or_zero(normal) : glm::dvec3{nan});
+    memory_.push(normals_, finite ? unit_or_zero(normal) : glm::dvec3{0.0});
   }
 
   void add_face() {
     polygon_.clear();
     for (std::string_view words = lines_.rest(), word = cut_word(words); !word.empty(); word = cut_word(words))
       memory_.push(polygon_, add_corner(corner_in(word)));
+    if (polygon_.size() > 3) drop_repeated_corners();
     if (polygon_.size() < 3) lines_.fail("a face needs at least 3 corners");
+    const bool known = std::ranges::all_of(polygon_, [&](std::uint32_t one) { return one < mesh_.positions.size(); });
+    if (known) return divide(mesh_.triangles.size());
+    late_.push_back({mesh_.triangles.size(), polygon_});
     for (std::size_t i = 2; i < polygon_.size(); ++i)
       memory_.push(mesh_.triangles, {polygon_[0], polygon_[i - 1], polygon_[i]});
+  }
+
+  /// A corner that follows itself, as where an exporter closes the outline.
+  void drop_repeated_corners() {
+    polygon_.erase(std::unique(polygon_.begin(), polygon_.end()), polygon_.end());
+    while (polygon_.size() > 1 && polygon_.front() == polygon_.back()) polygon_.pop_back();
+  }
+
+  /// Puts the triangles of polygon_ at this place.
+  void divide(std::size_t place) {
+    corners_.clear();
+    for (const std::uint32_t corner : polygon_) corners_.push_back(mesh_.positions[corner]);
+    pieces_.clear();
+    triangulator_.divide(corners_, check_, pieces_);
+    for (const auto& [a, b, c] : pieces_) {
+      const std::array triangle{polygon_[a], polygon_[b], polygon_[c]};
+      if (place == mesh_.triangles.size())
+        memory_.push(mesh_.triangles, triangle);
+      else
+        mesh_.triangles[place] = triangle;
+      ++place;
+    }
+  }
+
+  /// Those with corners that came after them.
+  void divide_late_polygons() {
+    for (auto& [place, corners] : late_) {
+      polygon_ = std::move(corners);
+      divide(place);
+    }
+  }
+
+  /// Normals of corners, where some vertex has one. A vertex without one has 0.
+  void add_normals() {
+    if (!names_normals_) return;
+    for (const auto& triangle : mesh_.triangles)
+      for (const std::uint32_t corner : triangle) mesh_.normals_made += at_positions_[corner].count == 0 ? 1 : 0;
+    if (mesh_.normals_made == 3 * mesh_.triangles.size()) return;
+    memory_.reserve(mesh_.normals, at_positions_.size());
+    for (const CornerNormals& normals : at_positions_) mesh_.normals.push_back(normals.vector());
   }
 
   /// The material of the faces that follow. Faces before the first one have number 0, that of no name.
@@ -135,21 +185,30 @@ class ObjReader {
   void add_materials(Notices& notices) {
     if (runs_.empty() || libraries_.paths().empty()) return;
     StopCheck check(stop_, "matching materials");
-    std::vector<Material> materials(names_.size());
-    std::vector<bool> defined(names_.size());
-    bool some = false;
+    std::vector<Material> defined;
+    // Of names, and of what stands before a comment in them. The first one counts.
+    std::unordered_map<std::string, std::size_t, HashOfName, std::equal_to<>> whole, bare;
     for (const std::string& library : libraries_.paths())
       for (Material& one : read_mtl(library, notices, stop_)) {
         check.after(1);
-        some = true;
-        const auto used = numbers_.find(one.name);
-        if (used == numbers_.end() || used->second == 0 || defined[used->second]) continue;  // the first one counts
-        defined[used->second] = true;
-        materials[used->second] = std::move(one);
+        whole.try_emplace(one.name, defined.size());
+        bare.try_emplace(std::string(without_comment(one.name)), defined.size());
+        defined.push_back(std::move(one));
       }
-    if (!some) return;
+    if (defined.empty()) return;
+    std::vector<Material> materials(names_.size());
+    std::size_t unknown = 0;
+    for (std::size_t i = 1; i < names_.size(); ++i) {
+      const auto exact = whole.find(names_[i]);
+      const auto before_comment = bare.find(without_comment(names_[i]));
+      if (exact != whole.end())
+        materials[i] = defined[exact->second];
+      else if (before_comment != bare.end())
+        materials[i] = defined[before_comment->second];
+      else
+        ++unknown;
+    }
     mesh_.materials.all = std::move(materials);
-    const auto unknown = std::count(defined.begin() + 1, defined.end(), false);
     if (unknown > 0) notices.push_back("materials that no library defines, taken as matt: " + std::to_string(unknown));
     std::vector<std::uint16_t>& numbers = mesh_.materials.of_triangle;
     memory_.reserve(numbers, mesh_.triangles.size());
@@ -186,29 +245,36 @@ class ObjReader {
     lines_.fail(detp::quoted(word) + " is not a corner of a face; expected a corner such as 1, 1/2, 1//3 or 1/2/3");
   }
 
-  /// Converts an index of the file to an index from 0. In the file, positive indices count from 1, negative indices
-  /// backwards from the latest vertex or normal, which is -1.
-  [[nodiscard]] std::size_t resolve(long long index, std::size_t count, const char* what) const {
+  [[nodiscard]] static std::string out_of_range(long long vertex, std::size_t count) {
+    return "vertex " + std::to_string(vertex) + " is out of range, there are " + std::to_string(count);
+  }
+
+  /// Converts an index of the file to an index from 0, perhaps of a vertex that comes later. In the file, positive indices count
+  /// from 1, negative indices backwards from the latest vertex or normal, which is -1. Nothing if there can be none.
+  [[nodiscard]] static std::optional<std::size_t> resolve(long long index, std::size_t count) {
     const auto size = static_cast<long long>(count);
-    const bool in_range = index != 0 && index >= -size && index <= size;
-    if (!in_range)
-      lines_.fail(std::string(what) + " " + std::to_string(index) + " is out of range, there are " +
-                  std::to_string(count) + " so far");
+    if (index == 0 || index < -size) return std::nullopt;
     return static_cast<std::size_t>(index < 0 ? size + index : index - 1);
   }
 
   std::uint32_t add_corner(const Corner& corner) {
-    const std::size_t position = resolve(corner.vertex, mesh_.positions.size(), "vertex");
-    if (position > UINT32_MAX) lines_.fail("a mesh can use the first 4294967295 vertices only");
-    if (corner.normal != 0) at_positions_[position].add(normals_[resolve(corner.normal, normals_.size(), "normal")]);
-    return static_cast<std::uint32_t>(position);
+    const auto position = resolve(corner.vertex, mesh_.positions.size());
+    if (!position || *position > UINT32_MAX)  // a mesh can use so many
+      lines_.fail(out_of_range(corner.vertex, mesh_.positions.size()) + " so far");
+    if (*position >= std::max(mesh_.positions.size(), needed_)) {
+      needed_ = *position + 1;
+      line_of_needed_ = lines_.line();
+    }
+    add_normal_of(corner, *position);
+    return static_cast<std::uint32_t>(*position);
   }
 
-  [[nodiscard]] bool all_used_have_normals() const {
-    return std::all_of(mesh_.triangles.begin(), mesh_.triangles.end(), [this](const auto& triangle) {
-      return std::all_of(triangle.begin(), triangle.end(),
-                         [this](auto corner) { return at_positions_[corner].count > 0; });
-    });
+  /// Normals that are not there yet, or are zero or not finite, do not count, nor those of vertices that are not there yet.
+  void add_normal_of(const Corner& corner, std::size_t position) {
+    names_normals_ = names_normals_ || corner.normal != 0;
+    const auto normal = resolve(corner.normal, normals_.size());
+    if (!normal || *normal >= normals_.size() || position >= at_positions_.size()) return;
+    if (normals_[*normal] != glm::dvec3{0.0}) at_positions_[position].add(normals_[*normal]);
   }
 
   const std::string& path_;
@@ -219,6 +285,15 @@ class ObjReader {
   std::vector<glm::dvec3> normals_;
   std::vector<CornerNormals> at_positions_;
   std::vector<std::uint32_t> polygon_;
+  Triangulator triangulator_;
+  StopCheck check_;
+  std::vector<glm::dvec3> corners_;                   ///< of polygon_
+  std::vector<std::array<std::uint32_t, 3>> pieces_;  ///< of polygon_, numbers of its corners
+  /// First triangle and corners of polygons before some of their vertices.
+  std::vector<std::pair<std::size_t, std::vector<std::uint32_t>>> late_;
+  std::size_t needed_ = 0;  ///< number of vertices without which a face has no corner
+  std::size_t line_of_needed_ = 0;
+  bool names_normals_ = false;  ///< some corner does
   Libraries libraries_;
   std::vector<std::string> names_{""};  ///< of materials
   std::unordered_map<std::string, std::uint16_t, HashOfName, std::equal_to<>> numbers_{{"", 0}};
@@ -234,7 +309,7 @@ Mesh read_obj(const std::string& path, Notices& notices, std::stop_token stop) {
 std::vector<std::string> material_files(const std::string& path, std::stop_token stop) {
   Libraries libraries;
   for (Statements lines(path, obj_format, std::move(stop)); lines.next();)
-    if (lines.keyword() == "mtllib") libraries.add(path, trimmed(lines.rest()));
+    if (lines.keyword() == "mtllib") libraries.add(path, lines.name());
   return libraries.paths();
 }
 

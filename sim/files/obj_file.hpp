@@ -8,10 +8,11 @@
 
 namespace detp::sim {
 
-/// Reads the triangles of an OBJ file, and the normals of its corners if every used vertex has at least one normal.
+/// Reads the triangles of an OBJ file (polygon.hpp: those of its polygons), and the normals of its corners.
 ///
-/// A vertex whose corners have different normals gets the sum of their unit vectors. Positions and normals may be
-/// infinite or NaN: the caller decides about them. A backslash at the end of a line joins the next line to this line,
+/// A vertex whose corners have different normals gets the sum of their unit vectors; one whose normals are missing, zero or not
+/// finite gets 0. Positions may be infinite or NaN: the caller decides about them. Faces may come before their vertices. A # after a
+/// blank begins a comment, unless the name of a material or file has it. A backslash at the end of a line joins the next line to this line,
 /// except in comments. Lines with a keyword unknown to OBJ are skipped, with a notice.
 ///
 /// Throws FileError with the line (the first of joined lines) if a number or face is malformed, an index is out of

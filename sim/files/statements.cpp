@@ -33,7 +33,13 @@ constexpr std::uint64_t unknown_allowed = 100;
 }  // namespace
 
 const StatementFormat obj_format{"OBJ", obj_keywords};
-const StatementFormat mtl_format{"MTL", mtl_keywords};
+const StatementFormat mtl_format{"MTL", mtl_keywords, true};
+
+std::string_view without_comment(std::string_view text) {
+  for (std::size_t at = 0; (at = text.find('#', at)) != std::string_view::npos; ++at)
+    if (at == 0 || trimmed(text.substr(at - 1, 1)).empty()) return trimmed(text.substr(0, at));
+  return text;
+}
 
 Statements::Statements(const std::string& path, const StatementFormat& format, std::stop_token stop)
     : format_(format), file_(path, std::move(stop)), lines_(file_) {}
@@ -45,13 +51,25 @@ bool Statements::next() {
     if (rest_.empty() || rest_.front() == '#') continue;
     if (rest_.back() == '\\' && lines_.line().back() == '\\') rest_ = joined();
     keyword_ = cut_word(rest_);
-    if (std::ranges::find(format_.keywords, keyword_) != format_.keywords.end()) {
+    if (const std::string_view known = known_keyword(); !known.empty()) {
+      keyword_ = known;
       ++known_;
       return true;
     }
     if (!keyword_.empty()) count_unknown();
   }
   return false;
+}
+
+/// The format's spelling of the keyword, which may have other capitals if the format allows it; empty for an unknown one.
+std::string_view Statements::known_keyword() const {
+  const auto lower = [](char one) { return one >= 'A' && one <= 'Z' ? static_cast<char>(one - 'A' + 'a') : one; };
+  const auto exact = std::ranges::find(format_.keywords, keyword_);
+  if (exact != format_.keywords.end()) return *exact;
+  if (!format_.any_capitals) return {};
+  const auto other = std::ranges::find_if(
+      format_.keywords, [&](std::string_view known) { return std::ranges::equal(known, keyword_, {}, lower, lower); });
+  return other != format_.keywords.end() ? *other : std::string_view{};
 }
 
 /// The line and its continuation lines, with a blank in place of each backslash.
@@ -75,6 +93,13 @@ void Statements::count_unknown() {
   if (unknown_ > unknown_allowed + known_)
     fail(fmt::format("most lines so far have keywords unknown to {0}, the first {1}; is this an {0} file?",
                      format_.name, first_unknown_));
+}
+
+std::string_view Statements::name() const {
+  constexpr std::string_view no_break_space = "\u00a0";
+  std::string_view name = trimmed(rest_);
+  while (name.ends_with(no_break_space)) name = trimmed(name.substr(0, name.size() - no_break_space.size()));
+  return name;
 }
 
 void Statements::fail(const std::string& what) const { throw FileError(file_.path(), number_, what); }

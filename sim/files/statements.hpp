@@ -16,10 +16,14 @@ namespace detp::sim {
 struct StatementFormat {
   std::string_view name;  ///< "OBJ"
   std::span<const std::string_view> keywords;
+  bool any_capitals = false;  ///< keywords may have other capitals
 };
 
 extern const StatementFormat obj_format;
 extern const StatementFormat mtl_format;
+
+/// The text up to a # that begins it or follows a blank, without the blanks before.
+[[nodiscard]] std::string_view without_comment(std::string_view text);
 
 /// The statements of such a file, without comments and blank lines. Lines that a backslash continues are joined.
 class Statements {
@@ -31,9 +35,13 @@ class Statements {
   bool next();
 
   [[nodiscard]] std::string_view keyword() const { return keyword_; }
-  /// The text after the keyword. Valid until next().
-  [[nodiscard]] std::string_view rest() const { return rest_; }
+  /// The text after the keyword, without a comment. Valid until next().
+  [[nodiscard]] std::string_view rest() const { return without_comment(rest_); }
+  /// The name after the keyword, which may have blanks and #; without_comment is for the caller. Valid until next().
+  [[nodiscard]] std::string_view name() const;
 
+  /// Number of the statement's line, the first of joined lines.
+  [[nodiscard]] std::size_t line() const { return number_; }
   /// Throws FileError with the line, the first of joined lines.
   [[noreturn]] void fail(const std::string& what) const;
 
@@ -46,6 +54,7 @@ class Statements {
 
  private:
   [[nodiscard]] std::string_view joined();
+  [[nodiscard]] std::string_view known_keyword() const;
   void count_unknown();
 
   const StatementFormat& format_;

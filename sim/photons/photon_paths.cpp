@@ -7,6 +7,7 @@
 #include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "photon_rounds.hpp"
+#include "photon_shares.hpp"
 #include "photon_tracer.hpp"
 
 namespace detp::sim {
@@ -14,12 +15,13 @@ namespace {
 
 constexpr std::uint64_t block_size = 256;  // number of photons that one thread traces at a time
 
+/// Of a block, photons beyond those that have `most` pieces alone are not traced.
 std::vector<PhotonPieces> trace_round(const PhotonTracer& tracer, std::uint64_t first, std::uint64_t photons,
-                                      const std::stop_token& stop) {
+                                      std::uint64_t most, const std::stop_token& stop) {
   std::vector<PhotonPieces> blocks((photons + block_size - 1) / block_size);
   sim::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
     const std::uint64_t start = first + i * block_size;
-    blocks[i] = tracer.trace(start, std::min(start + block_size, first + photons), stop);
+    blocks[i] = tracer.trace(start, std::min(start + block_size, first + photons), stop, most);
   });
   return blocks;
 }
@@ -42,34 +44,54 @@ void append(const PhotonPieces& pieces, std::size_t count, Paths& paths) {
   add(pieces.triangles, paths.triangles);
 }
 
+std::vector<double> shares_of(const Paths& paths, std::uint64_t wanted) {
+  std::vector<std::uint64_t> pieces(paths.photon_count);
+  for (const std::uint64_t photon : paths.photons) ++pieces[photon];
+  return photon_shares(pieces, wanted);
+}
+
 }  // namespace
 
-Paths photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed, const std::stop_token& stop) {
+TracedPaths photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed, const std::stop_token& stop) {
   return photon_paths(scene, count, seed, caster_for(scene, stop), stop);
 }
 
-Paths photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed, std::shared_ptr<const RayCaster> caster,
-                   const std::stop_token& stop) {
+TracedPaths photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed,
+                         std::shared_ptr<const RayCaster> caster, const std::stop_token& stop, PhotonPowers powers) {
   const DefaultFloatingPoint mode;
   const PhotonTracer tracer(scene, seed, std::move(caster));
   PhotonRounds rounds(scene.name, count);
-  Paths paths;
+  TracedPaths paths;
+  std::vector<PathEnd> ends;  // of photons
   std::uint64_t traced = 0;
   StopCheck check(stop, "copying photon paths");
   try {
     while (paths.rays.size() < count) {
       const std::uint64_t photons = rounds.next(paths.rays.size());
-      for (const PhotonPieces& block : trace_round(tracer, traced, photons, stop)) {
+      for (const PhotonPieces& block : trace_round(tracer, traced, photons, count - paths.rays.size(), stop)) {
         const std::size_t missing = count - std::min(count, paths.rays.size());
+        if (missing == 0) break;
         const std::size_t taken = whole_photons(block, missing);
         append(block, taken, paths);
+        ends.insert(ends.end(), block.ends.begin(), block.ends.end());
         check.after(taken);
       }
       traced += photons;
     }
     if (count > 0) paths.photon_count = paths.photons.back() + 1;
-    for_each_checked(std::span(paths.rays), check,
-                     [&](Ray& ray) { ray.power /= static_cast<double>(paths.photon_count); });
+    for (std::uint64_t photon = 0; photon < paths.photon_count; ++photon)
+      paths.light.add(ends[photon], tracer.power(photon));
+    paths.light.landings = static_cast<std::uint64_t>(
+        std::ranges::count_if(paths.landings, [](double distance) { return distance < unbounded; }));
+    const std::vector<double> shares =
+        powers == PhotonPowers::unbiased ? shares_of(paths, count) : std::vector<double>();
+    const double equal = static_cast<double>(paths.photon_count);
+    for_each_checked(0, paths.rays.size(), check, [&](std::size_t i) {
+      if (shares.empty())
+        paths.rays[i].power /= equal;
+      else
+        paths.rays[i].power *= shares[paths.photons[i]];
+    });
   } catch (const Stopped&) {
     stopped_tracing(paths.rays.size(), count);
   }

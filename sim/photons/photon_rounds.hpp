@@ -36,11 +36,10 @@ class PhotonRounds {
 
  private:
   static constexpr std::uint64_t least_in_a_round = 256;
-  static constexpr std::uint64_t most_in_first_round = 1ULL << 14;
 
   [[nodiscard]] std::uint64_t photons_needed(std::uint64_t found) const {
     const std::uint64_t missing = pieces_ - found;
-    if (traced_ == 0) return std::clamp<std::uint64_t>(missing / 4, least_in_a_round, most_in_first_round);
+    if (traced_ == 0) return least_in_a_round;
     const double each = static_cast<double>(found) / static_cast<double>(traced_);
     const double margin = 1 + 2 / std::sqrt(static_cast<double>(traced_));  // so that a further round is rarely needed
     const double more = each > 0 ? margin * static_cast<double>(missing) / each : 2.0 * static_cast<double>(traced_);

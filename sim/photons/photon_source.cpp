@@ -12,6 +12,7 @@
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/sim/ranks/parts.hpp"
 #include "photon_rounds.hpp"
+#include "photon_shares.hpp"
 
 namespace detp::sim {
 namespace {
@@ -19,11 +20,26 @@ namespace {
 constexpr std::uint64_t group_size = 1024;  // photons in a group
 constexpr std::uint64_t most_in_a_round = 1ULL << 26;
 
+/// Of the first photons of some that begin with number `first`.
+LightLedger ledger_of(const PhotonTracer& tracer, std::uint64_t first, const PhotonPieces& pieces,
+                      std::uint64_t photons) {
+  LightLedger light;
+  for (std::uint64_t i = 0; i < photons; ++i) light.add(pieces.ends[i], tracer.power(first + i));
+  for (std::size_t i = 0; i < pieces.rays.size() && pieces.photons[i] < first + photons; ++i)
+    light.landings += pieces.landings[i] < unbounded ? 1 : 0;
+  return light;
+}
+
 }  // namespace
 
 PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed,
                            std::shared_ptr<const RayCaster> caster, const std::stop_token& stop, Ranks* ranks)
-    : tracer_(scene, seed, std::move(caster)), count_(count), limit_(0), starts_{0}, most_kept_(most_kept_bytes()) {
+    : tracer_(scene, seed, std::move(caster)),
+      wanted_(count),
+      count_(count),
+      limit_(0),
+      starts_{0},
+      most_kept_(most_kept_bytes()) {
   const DefaultFloatingPoint mode;
   require_memory(fmt::format("numbers of {} rays", count), 16.0 * static_cast<double>(count) / group_size);
   OneRank one;
@@ -35,6 +51,7 @@ PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_
       count_rays((photons + group_size - 1) / group_size, ranks != nullptr ? *ranks : one, stop);
     }
     if (count > 0) end_with_last_photon(stop);
+    if (count > 0) add_up_light(stop);
   } catch (const Stopped&) {
     stopped_tracing(std::min(starts_.back(), count), count);
   }
@@ -42,7 +59,7 @@ PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_
 
 PhotonPieces PhotonSource::trace_group(std::uint64_t group, const std::stop_token& stop) const {
   const std::uint64_t first = group * group_size;
-  return tracer_.trace(first, std::min(first + group_size, limit_), stop);
+  return tracer_.trace(first, std::min(first + group_size, limit_), stop, wanted_);
 }
 
 const PhotonPieces& PhotonSource::pieces_of(std::uint64_t group, PhotonPieces& traced,
@@ -66,6 +83,7 @@ void PhotonSource::count_rays(std::uint64_t groups, Ranks& ranks, const std::sto
   struct Group {
     std::uint64_t rays = 0;
     Box origins;
+    LightLedger light;
   };
   const std::uint64_t known = starts_.size() - 1;
   if (groups <= known) return;
@@ -81,12 +99,14 @@ void PhotonSource::count_rays(std::uint64_t groups, Ranks& ranks, const std::sto
       const PhotonPieces pieces = trace_group(start + i, stop);
       found[i].rays = pieces.rays.size();
       for (const Ray& ray : pieces.rays) found[i].origins.include(ray.origin);
+      found[i].light = ledger_of(tracer_, (start + i) * group_size, pieces, pieces.ends.size());
       kept_[start + i] = keep(pieces);
     });
   });
   share_parts(ranks, std::span(found));
   for (const Group& group : std::span(found).subspan(skipped)) {
     starts_.push_back(starts_.back() + group.rays);
+    ledgers_.push_back(group.light);
     if (group.rays == 0) continue;
     origins_.include(group.origins.low);
     origins_.include(group.origins.high);
@@ -104,6 +124,21 @@ void PhotonSource::end_with_last_photon(const std::stop_token& stop) {
   const std::uint64_t last = photons[count_ - 1 - starts_[group]];
   count_ = starts_[group] + static_cast<std::uint64_t>(std::ranges::upper_bound(photons, last) - photons.begin());
   emitted_ = last + 1;
+}
+
+void PhotonSource::add_up_light(const std::stop_token& stop) {
+  const std::uint64_t last = (emitted_ - 1) / group_size;
+  for (std::uint64_t group = 0; group < last; ++group) light_ += ledgers_[group];
+  light_ += ledger_of(tracer_, last * group_size, trace_group(last, stop), emitted_ - last * group_size);
+  constexpr std::uint64_t many = 4096;  // as photon_shares
+  if (emitted_ >= many) return;
+  std::vector<std::uint64_t> pieces(emitted_);
+  for (std::uint64_t group = 0; group <= last; ++group) {
+    PhotonPieces traced;
+    for (const std::uint64_t photon : pieces_of(group, traced, stop).photons)
+      if (photon < emitted_) ++pieces[photon];
+  }
+  shares_ = photon_shares(pieces, wanted_);
 }
 
 std::uint64_t PhotonSource::block_end(std::uint64_t first, std::uint64_t most) const {
@@ -148,7 +183,10 @@ void PhotonSource::read_numbered(std::uint64_t first, std::span<Ray> block, std:
     for (std::uint64_t number = from; number < to; ++number) {
       photons[number - first] = pieces.photons[number - starts_[group]];
       Ray& ray = block[number - first] = pieces.rays[number - starts_[group]];
-      ray.power /= static_cast<double>(emitted_);
+      if (shares_.empty())
+        ray.power /= static_cast<double>(emitted_);
+      else
+        ray.power *= shares_[pieces.photons[number - starts_[group]]];
     }
   });
 }

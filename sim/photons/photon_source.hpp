@@ -39,6 +39,8 @@ class PhotonSource final : public RaySource {
   [[nodiscard]] double farthest_from(const glm::dvec3& point) const override;
   /// Bytes of rays that a source keeps at most.
   [[nodiscard]] static double most_kept_bytes() { return memory_budget() / 16; }
+  /// Of all photons.
+  [[nodiscard]] const LightLedger& light() const { return light_; }
   [[nodiscard]] double kept_bytes() const override { return std::min(static_cast<double>(traced_bytes_), most_kept_); }
 
  private:
@@ -52,8 +54,11 @@ class PhotonSource final : public RaySource {
   [[nodiscard]] std::uint64_t group_of(std::uint64_t ray) const;
   /// Ends at the end of the photon that has ray count_ - 1.
   void end_with_last_photon(const std::stop_token& stop);
+  /// Fills in light_ and shares_.
+  void add_up_light(const std::stop_token& stop);
 
   PhotonTracer tracer_;
+  std::uint64_t wanted_;
   std::uint64_t count_;
   std::uint64_t limit_;                ///< in photons
   std::vector<std::uint64_t> starts_;  ///< number of each group's first ray; at the end, the number of all rays found
@@ -61,7 +66,10 @@ class PhotonSource final : public RaySource {
   std::atomic<std::uint64_t> traced_bytes_ = 0;            ///< of groups traced by the constructor
   double most_kept_;                                       ///< in bytes
   Box origins_;
-  std::uint64_t emitted_ = 1;  ///< number of photons that yield the rays
+  std::uint64_t emitted_ = 1;         ///< number of photons that yield the rays
+  std::vector<LightLedger> ledgers_;  ///< of groups
+  LightLedger light_;
+  std::vector<double> shares_;  ///< of photons; none: all alike
 };
 
 }  // namespace detp::sim

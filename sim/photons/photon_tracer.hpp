@@ -10,7 +10,9 @@
 namespace detp::sim {
 
 /// The straight pieces of some photons' paths, in order.
-using PhotonPieces = Paths;
+struct PhotonPieces : Paths {
+  std::vector<PathEnd> ends = {};  ///< of each photon
+};
 
 /// Traces photons through a scene as photon_paths (photon_paths.hpp) describes. Each photon is a function of the seed
 /// and its number alone. Several threads may use one tracer.
@@ -21,8 +23,13 @@ class PhotonTracer {
   PhotonTracer(const Scene& scene, std::uint64_t seed, const std::stop_token& stop = {});
   PhotonTracer(const Scene& scene, std::uint64_t seed, std::shared_ptr<const RayCaster> caster);
 
-  /// Pieces of photons first … last - 1, each with its photon's power (EmittedPhoton). Throws Stopped if a stop was requested.
-  [[nodiscard]] PhotonPieces trace(std::uint64_t first, std::uint64_t last, const std::stop_token& stop = {}) const;
+  /// Pieces of photons first … last - 1, each with its photon's power (EmittedPhoton); of fewer photons if these have `most` pieces.
+  /// Throws std::length_error if they would not fit in memory, and Stopped if a stop was requested.
+  [[nodiscard]] PhotonPieces trace(std::uint64_t first, std::uint64_t last, const std::stop_token& stop = {},
+                                   std::uint64_t most = UINT64_MAX) const;
+
+  /// Power of a photon.
+  [[nodiscard]] double power(std::uint64_t photon) const { return walk_.power(photon); }
 
  private:
   PhotonWalk walk_;

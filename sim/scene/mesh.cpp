@@ -84,11 +84,19 @@ std::vector<glm::dvec3> normals_by_area(const Mesh& mesh, StopCheck& check) {
   return normals;
 }
 
+/// Those of the mesh, in place of a zero one that of the triangles around.
 std::vector<glm::dvec3> normals_given(const Mesh& mesh, StopCheck& check) {
   std::vector<glm::dvec3> normals;
   normals.reserve(mesh.normals.size());
-  for_each_checked(std::span(mesh.normals), check,
-                   [&](const glm::dvec3& normal) { normals.push_back(unit_or_zero(normal)); });
+  bool some_zero = false;
+  for_each_checked(std::span(mesh.normals), check, [&](const glm::dvec3& normal) {
+    normals.push_back(unit_or_zero(normal));
+    some_zero = some_zero || normals.back() == glm::dvec3{0.0};
+  });
+  if (!some_zero) return normals;
+  const std::vector<glm::dvec3> others = normals_by_area(mesh, check);
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    if (normals[i] == glm::dvec3{0.0}) normals[i] = others[i];
   return normals;
 }
 
@@ -117,8 +125,7 @@ std::vector<Sample> samples_at_vertices(const Mesh& mesh, Notices& notices, cons
       samples.push_back({.position = mesh.positions[i], .normal = normals[i]});
   });
   note_dropped(notices, unreferenced, " unreferenced");
-  note_dropped(notices, without_normal, "",
-               mesh.normals.empty() ? ": no triangle around has an area" : ": the normal is zero");
+  note_dropped(notices, without_normal, "", ": no triangle around has an area");
   return samples;
 }
 

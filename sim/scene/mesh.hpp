@@ -12,11 +12,22 @@
 /// Triangle meshes, and the samples at their vertices.
 namespace detp::sim {
 
+/// How the faces of a file were divided into triangles.
+struct PolygonCounts {
+  std::uint64_t split = 0;  ///< polygons that no fan of triangles around a corner fills
+  std::uint64_t not_plane =
+      0;  ///< polygons whose corners are off their mean plane by more than a thousandth of their extent
+  std::uint64_t degenerate = 0;  ///< polygons without area, or that cross themselves
+};
+
 struct Mesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::dvec3> normals;  ///< one for each position, or none at all; not necessarily of unit length
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into positions, all in range
   Materials materials = {};
+  PolygonCounts polygons = {};  ///< of the file
+  std::uint64_t normals_made =
+      0;  ///< corners whose normal the file lacks or has as zero, NaN or infinite, if it has others
 };
 
 /// Messages for the user that are not errors: "12 unreferenced vertices dropped".
@@ -24,10 +35,9 @@ using Notices = std::vector<std::string>;
 
 /// One sample at each vertex that a triangle uses, in vertex order.
 ///
-/// The normals are those of the mesh if it has any, else area-weighted mean normals of the triangles around each
-/// vertex. Unreferenced vertices are dropped. So are vertices without a normal: all triangles around them have no area,
-/// or the file's normal is zero. Each kind of drop adds one notice with its count. Throws Stopped if a stop was
-/// requested.
+/// The normals are those of the mesh; where it has none or a zero one, the area-weighted mean normal of the triangles
+/// around the vertex. Unreferenced vertices are dropped. So are vertices without a normal: all triangles around them have no
+/// area. Each kind of drop adds one notice with its count. Throws Stopped if a stop was requested.
 [[nodiscard]] std::vector<Sample> samples_at_vertices(const Mesh& mesh, Notices& notices,
                                                       const std::stop_token& stop = {});
 

@@ -31,7 +31,7 @@ const sim::RunOptions one_thread{.threads = 1};
 
 std::uint64_t hits_by_hand() {
   const auto discs = sim::uniform_discs(sim::Body::cube, side, samples, radius, 1);
-  const auto rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, lines);
+  const auto rays = sim::LineField({glm::dvec3{0.0}, enclosing_radius(side, radius)}, 1).lines(0, lines);
   return sim::run(sim::make_problem(rays, discs), tree, one_thread).total_hits;
 }
 

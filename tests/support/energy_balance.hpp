@@ -24,8 +24,11 @@ class EnergyBalance {
       : surfaces(scene.mesh.materials.all.size()), materials_(scene.mesh.materials) {
     const sim::PhotonWalk walk(scene, seed);
     for (std::uint64_t photon = 0; photon < photons; ++photon) {
-      emitted += walk.power(photon);
-      walk.follow(photon, *this);
+      const double power = walk.power(photon);
+      emitted += power;
+      const sim::PathEnd end = walk.follow(photon, *this);
+      if (end == sim::PathEnd::left || end == sim::PathEnd::missed) left += power;
+      if (end == sim::PathEnd::cut) stopped += power;
     }
   }
 
@@ -52,9 +55,6 @@ class EnergyBalance {
     surface.expected += share * power;
     surface.variance += share * (1 - share) * power * power;
   }
-
-  void escaped(double power) { left += power; }
-  void cut_off(double power) { stopped += power; }
 
  private:
   const sim::Materials& materials_;

@@ -126,10 +126,11 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common, const
                  {"effects", to_json(job.observed().effects)},
                  {"effects_seconds", job.observed().seconds},
                  {"notices", job.notices},
-                 {"warnings", job.warnings},
+                 {"warnings", job.all_said()},
                  {"remarks", remarks},
                  {"read_seconds", job.read_seconds},
                  {"trace_seconds", job.trace_seconds}};
+  result.json.update(ledgers_json(job));
   const std::vector<double> if_switched = tests_if_switched(job, stop);
   for (std::size_t i = 0; i < if_switched.size(); ++i)
     if (if_switched[i] > 0) result.json["effects"][i]["tests_if_switched"] = if_switched[i];

@@ -27,8 +27,10 @@ void read_evenly(const sim::RaySource& stream, std::uint64_t pieces, std::span<s
 }  // namespace
 
 std::unique_ptr<const sim::RaySource> Job::field_rays(std::uint64_t count, const std::stop_token& stop) const {
-  const sim::Sphere sphere = stored_discs ? stored_summary.enclosing : sim::enclosing_sphere(discs, stop);
-  if (field == sim::Field::isotropic) return std::make_unique<sim::LinesOfField>(sphere, seed, count);
+  const sim::Sphere around = numbers        ? sim::Sphere{glm::dvec3{0.0}, numbers->sphere_radius}
+                             : stored_discs ? stored_summary.enclosing
+                                            : sim::enclosing_sphere(discs, stop);
+  if (field == sim::Field::isotropic) return std::make_unique<sim::LinesOfField>(around, seed, count);
   glm::dvec3 down{0.0};
   down[up.axis] = -up.sign;
   sim::Box box = stored_summary.centres;
@@ -36,7 +38,7 @@ std::unique_ptr<const sim::RaySource> Job::field_rays(std::uint64_t count, const
     for (const sim::Disc& disc : discs) box.include(disc.centre);
   glm::dvec3 point = box.centre();
   point[up.axis] = up.sign > 0 ? box.high[up.axis] : box.low[up.axis];
-  return std::make_unique<sim::MixedField>(sim::FieldMixture{sphere, shares, down, point}, seed, count);
+  return std::make_unique<sim::MixedField>(sim::FieldMixture{around, shares, down, point}, seed, count);
 }
 
 void Job::check_problem(int threads, const std::stop_token& stop) {
@@ -44,6 +46,13 @@ void Job::check_problem(int threads, const std::stop_token& stop) {
   problem_ = sim::make_problem(paths(), discs, front_facing, threads, stop);
   check_seconds = watch.seconds();
   given = sim::without_effects(*problem_);
+  take_numbers(given);
+}
+
+void Job::take_numbers(Workload& workload) const {
+  if (!numbers) return;
+  workload.sphere_radius = numbers->sphere_radius;
+  workload.box = numbers->box;
 }
 
 sim::Paths Job::more_rays(std::uint64_t made, std::uint64_t batch, std::size_t count,
@@ -51,7 +60,8 @@ sim::Paths Job::more_rays(std::uint64_t made, std::uint64_t batch, std::size_t c
   if (rays_from_file) throw std::invalid_argument("a ray file has no further rays");
   if (field == sim::Field::photons) {
     if (!scene) throw std::invalid_argument("further photon paths need the scene, which was not kept");
-    return sim::photon_paths(*scene, count, seed + 0x9e3779b97f4a7c15ULL * (batch + 1), caster, stop_request);
+    return sim::photon_paths(*scene, count, seed + 0x9e3779b97f4a7c15ULL * (batch + 1), caster, stop_request,
+                             sim::PhotonPowers::equal);
   }
   sim::Paths lines;
   lines.rays.resize(count);
@@ -71,6 +81,7 @@ void Job::measure() const {
   sim::Observed found =
       sim::observe(of_block ? *of_block : problem(), surface, measuring.effects, measuring.stop, measuring.effort);
   workload_ = found.workload;
+  take_numbers(workload_);
   workload_.rays = given.rays;
   workload_.samples = given.samples;  // more than were measured if discs are stored
   if (measuring.dimension) workload_.dimension = *measuring.dimension;

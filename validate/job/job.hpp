@@ -13,6 +13,7 @@
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/effects/observe.hpp"
 #include "detp/sim/geometry/disc_source.hpp"
+#include "detp/sim/photons/light_ledger.hpp"
 #include "detp/sim/photons/ray_caster.hpp"
 #include "detp/sim/ranks/ranks.hpp"
 #include "detp/sim/rays/mixed_field.hpp"
@@ -70,6 +71,7 @@ struct JobRequest {
   /// discs of a file that do not fit in memory stay there if they can be read in any order, and the rays are a stream
   bool store_discs = false;
   bool keep_scene = false;  ///< the job keeps the scene: for estimators that look at triangles, and for more_rays
+  bool in_batches = false;  ///< its photon paths are the first of many batches, with those of more_rays
   int threads = 1;          ///< for checking rays and discs; 0: all cores
   /// that make the same job together, counting the photons of a stream; null: this process alone
   sim::Ranks* ranks = nullptr;
@@ -120,8 +122,13 @@ struct Job {
   sim::Up up;                                         ///< by which lights were placed
   Workload given;             ///< without effects: numbers of rays and discs, sizes; known without measuring
   sim::SurfaceFacts surface;  ///< of the scene's mesh
+  std::optional<sim::LightLedger> light = {};  ///< of photon paths that were traced
+  sim::PolygonCounts polygons = {};            ///< of the scene's mesh
+  std::uint64_t normals_made = 0;              ///< Mesh::normals_made
+  std::optional<Workload> numbers =
+      {};  ///< of a workload in numbers: S₀ and box are its own, not those around the discs
   sim::Notices notices;
-  /// warnings about a few discs or rays that distort the workload (outliers.hpp)
+  /// warnings about light that is lost (light_notes.hpp), and about a few discs or rays that distort the workload (outliers.hpp)
   std::vector<std::string> warnings;
   bool front_facing = false;
   bool rays_from_file = false;
@@ -151,6 +158,12 @@ struct Job {
   /// The problem. It refers to this job's rays and discs; moving the job does not change that. Throws std::invalid_argument
   /// if the rays are a stream.
   [[nodiscard]] const sim::Problem& problem() const;
+  /// Notices and warnings.
+  [[nodiscard]] std::vector<std::string> all_said() const {
+    std::vector<std::string> all = notices;
+    all.insert(all.end(), warnings.begin(), warnings.end());
+    return all;
+  }
   [[nodiscard]] sim::PathRays paths() const { return {rays, photons, landings, photon_count, triangles_met}; }
   /// Rays have the numbers of their photons. If not, each is taken for a photon of its own.
   [[nodiscard]] bool numbered() const { return stream ? stream->numbered() : !photons.empty(); }
@@ -161,6 +174,8 @@ struct Job {
 
  private:
   void measure() const;
+  /// In place of what the discs alone would say.
+  void take_numbers(Workload& workload) const;
 
   std::optional<sim::Problem> problem_;
   mutable std::optional<sim::Observed> observed_;  ///< of all rays, or of some of a stream

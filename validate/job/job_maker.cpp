@@ -26,6 +26,7 @@
 #include "detp/sim/technique/ranked.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "job_progress.hpp"
+#include "light_notes.hpp"
 #include "outliers.hpp"
 
 namespace detp::validate {
@@ -100,6 +101,7 @@ class JobMaker {
  private:
   void from_numbers() {
     const Workload workload = workload_of_numbers(request_);
+    job_.numbers = workload;
     job_.name = name_of_numbers(workload);
     job_.discs = sim::uniform_discs(on_faces(workload) ? sim::Body::cube_faces : sim::Body::cube, scene_side(workload),
                                     count_in_memory("samples", workload.samples, sizeof(sim::Disc)),
@@ -166,6 +168,8 @@ class JobMaker {
     job_.lights = scene_->lights;
     job_.up = scene_->up;
     job_.triangles = scene_->mesh.triangles.size();
+    job_.polygons = scene_->mesh.polygons;
+    job_.normals_made = scene_->mesh.normals_made;
     job_.surface = {triangle_area(scene_->mesh, stop_),
                     request_.samples ? 0 : sim::mean_edge_length(scene_->mesh, stop_)};
     const double side = scene_->box.longest_side();
@@ -217,7 +221,11 @@ class JobMaker {
       return;
     }
     const sim::Scene& scene = scene_for_photons();
-    keep(sim::photon_paths(scene, count, request_.seed, caster_, stop_));
+    sim::TracedPaths traced =
+        sim::photon_paths(scene, count, request_.seed, caster_, stop_,
+                          request_.in_batches ? sim::PhotonPowers::equal : sim::PhotonPowers::unbiased);
+    job_.light = traced.light;
+    keep(std::move(traced));
   }
 
   /// Its rays are to stay in the file: ranks share them, or they are more than a block and take more than half of the memory.
@@ -278,7 +286,9 @@ class JobMaker {
       return;
     }
     const sim::Scene& scene = scene_for_photons();
-    job_.stream = std::make_unique<sim::PhotonSource>(scene, count, request_.seed, caster_, stop_, request_.ranks);
+    auto source = std::make_unique<sim::PhotonSource>(scene, count, request_.seed, caster_, stop_, request_.ranks);
+    job_.light = source->light();
+    job_.stream = std::move(source);
   }
 
   /// What is out of range must be refused here, not when the workload is measured.
@@ -305,7 +315,9 @@ class JobMaker {
     } else {
       job_.check_problem(request_.threads, stop_);
     }
-    job_.warnings = outlier_warnings(of_first ? *of_first : job_.problem(), stop_);
+    if (job_.light) job_.warnings = light_warnings(*job_.light, job_.lights);
+    for (std::string& one : outlier_warnings(of_first ? *of_first : job_.problem(), stop_))
+      job_.warnings.push_back(std::move(one));
     if (request_.workload_only && !request_.ray_file)
       job_.given.rays = std::max(job_.given.rays, request_.rays.value_or(rays_by_default));
     const bool numbers = request_.numbers_alone();

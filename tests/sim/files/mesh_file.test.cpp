@@ -136,9 +136,80 @@ TEST_SUITE("known answer") {
     CHECK(cancelled.normals[0] == glm::dvec3{0, 0, 1});
   }
 
-  TEST_CASE("OBJ normals are dropped if a used vertex has none") {
+  TEST_CASE("normals that are missing, zero or not finite become those of the faces, with a notice") {
     const ScratchFolder folder;
-    CHECK(read(folder.file("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3\n")).normals.empty());
+    const std::string positions = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 1\n";
+    for (const char* bad :
+         {"vn 0 0 0\nf 1//1 2//1 3//2\n", "vn nan 0 0\nf 1//1 2//1 3//2\n", "vn inf 0 0\nf 1//1 2//1 3//2\n",
+          "f 1//1 2//1 3\n", "f 1//1 2//1 3//7\n", "f 1//1 2//1 3//-4\n", "vn -nan(ind) 0 1\nf 1//1 2//1 3//2\n"}) {
+      CAPTURE(bad);
+      Notices notices;
+      const Mesh mesh = read_mesh(folder.file("m.obj", positions + bad), notices);
+      CHECK(mesh.normals_made == 1);
+      REQUIRE(notices.size() == 1);
+      CHECK(notices[0].find("with that of the faces around: 1") != std::string::npos);
+      const std::vector<Sample> samples = samples_at_vertices(mesh, notices);
+      REQUIRE(samples.size() == 3);
+      CHECK(samples[0].normal.x == doctest::Approx(std::sqrt(0.5)));
+      CHECK(samples[2].normal == glm::dvec3{0, 0, 1});
+    }
+    Notices notices;
+    const Mesh none = read_mesh(folder.file("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1//1 2//1 3//1\n"), notices);
+    CHECK(none.normals.empty());
+    CHECK(none.normals_made == 3);
+    CHECK(notices.size() == 1);
+    std::string ply = square_ply;
+    ply.replace(ply.find("element face"), 0, "property float nx\nproperty float ny\nproperty float nz\n");
+    for (const char* corner : {"0 0 0\n", "1 0 0\n", "0 1 0\n"})
+      ply.replace(ply.find(corner), 6, std::string(corner, 5) + " 0 0 1\n");
+    ply.replace(ply.find("1 1 0\n"), 6, "1 1 0 nan 0 0\n");
+    const Mesh bad = read_mesh(folder.file("m.ply", ply), notices);
+    CHECK(bad.normals_made == 2);  // corners of two triangles, or of one
+    CHECK(samples_at_vertices(bad, notices).size() == 4);
+  }
+
+  TEST_CASE("polygons are divided alike in OBJ and PLY, also where faces come before vertices") {
+    const ScratchFolder folder;
+    const std::string bent = "2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 0\n";
+    std::string vertices;
+    for (std::size_t i = 0; i < bent.size(); i += 6) vertices += "v " + bent.substr(i, 6);
+    const std::string head = "ply\nformat ascii 1.0\n";
+    const std::string of_vertices = "element vertex 6\nproperty float x\nproperty float y\nproperty float z\n";
+    const std::string of_faces = "element face 1\nproperty list uchar int vertex_indices\n";
+    const std::vector<std::array<std::uint32_t, 3>> expected =
+        read(folder.file("m.obj", vertices + "f 1 2 3 4 5 6\n")).triangles;
+    double area = 0;
+    for (const auto& [a, b, c] : expected) {
+      const Mesh mesh = read(folder.path("m.obj"));
+      area += 0.5 * glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]).z;
+    }
+    CHECK(area == doctest::Approx(3));
+    for (const auto& [name, text] :
+         {std::pair<std::string, std::string>{"before.obj", "f 1 2 3 4 5 6\n" + vertices},
+          {"old.obj", vertices + "fo 1 2 3 4 5 6\n"},
+          {"closed.obj", vertices + "f 1 2 3 4 5 6 1\n"},
+          {"comment.obj", vertices + "f 1 2 3 4 5 6 # bent\n"},
+          {"m.ply", head + of_vertices + of_faces + "end_header\n" + bent + "6 0 1 2 3 4 5\n"},
+          {"before.ply", head + of_faces + of_vertices + "end_header\n6 0 1 2 3 4 5\n" + bent},
+          {"closed.ply", head + of_vertices + of_faces + "end_header\n" + bent + "8 0 1 2 2 3 4 5 0\n"}}) {
+      CAPTURE(name);
+      CHECK(read(folder.file(name, text)).triangles == expected);
+    }
+  }
+
+  TEST_CASE("PLY triangle strips alternate their orientation, end with -1 and may turn by repeated corners") {
+    const ScratchFolder folder;
+    const std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+        "element tristrips 1\nproperty list int int vertex_indices\nelement face 0\n"
+        "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n";
+    const std::vector<std::array<std::uint32_t, 3>> expected{{0, 1, 3}, {3, 1, 2}, {0, 1, 4}};
+    CHECK(read(folder.file("m.ply", text + "8 0 1 3 2 -1 0 1 4\n")).triangles == expected);
+    CHECK(read(folder.file("m.ply", text + "6 0 1 3 3 2 4\n")).triangles.size() == 2);
+    CHECK_THROWS_WITH_AS((void)read(folder.file("m.ply", text + "3 0 1 9\n")), doctest::Contains("strip 1: index"),
+                         FileError);
+    CHECK_THROWS_WITH_AS((void)read(folder.file("m.ply", text + "3 0 1 -2\n")), doctest::Contains("strip 1: index"),
+                         FileError);
   }
 
   TEST_CASE("an unused position that is not finite is set to 0, with a notice") {
@@ -211,9 +282,9 @@ TEST_SUITE("bad input") {
          {std::pair<std::string, std::string>{triangle + "f 1 2 4\n", ":4: vertex 4 is"},
           {triangle + "f 1 2 0\n", ":4: vertex 0 is"},
           {triangle + "f -4 2 1\n", ":4: vertex -4 is"},
-          {triangle + "\r\nf 1//1 2//1 3//1\n", ":5: normal 1 is"},
-          {triangle + "vn 0 0 1\rf 1//-2 2 3\n", ":5: normal -2 is"},
           {triangle + "f 1 2\n", ":4: a face needs"},
+          {triangle + "f 1 2 2 1\n", ":4: a face needs"},
+          {"f 1 2 3\nf 1 2 9\nf 1 2 4\n" + triangle, ":2: vertex 9 is out of range, there are 3"},
           {triangle + "f 1 2 3x\n", ":4: \"3x\" is not a corner"},
           {triangle + "f 1 2 3.5\n", ":4: \"3.5\" is not a corner"},
           {triangle + "f 1 2 3/1/1/1\n", ":4: \"3/1/1/1\" is not a corner"},

@@ -282,9 +282,42 @@ TEST_SUITE("known answer") {
     CHECK(balance.surfaces[1].expected == doctest::Approx(0.6 * balance.surfaces[1].arriving));
   }
 
+  TEST_CASE("long paths have all their light, and no photon of them is cut") {
+    for (const auto& [albedo, photons] : {std::pair{0.5, 3000.0}, {0.99, 1000.0}, {0.999, 1000.0}, {0.9999, 200.0}}) {
+      CAPTURE(albedo);
+      const TracedPaths paths =
+          photon_paths(furnace({.diffuse = albedo}), static_cast<std::size_t>(photons / (1 - albedo)), 5);
+      double irradiance = 0;  // mean over the walls
+      for (const Ray& ray : paths.rays) irradiance += ray.power / faces;
+      const double error = 1 / std::sqrt(static_cast<double>(paths.photon_count));
+      CHECK(irradiance * (1 - albedo) / pi == doctest::Approx(1).epsilon(4.5 * error));
+      CHECK(paths.light.photons == std::array<std::uint64_t, path_ends>{paths.photon_count, 0, 0, 0});
+      CHECK(paths.light.landings == paths.rays.size());
+      CHECK(paths.light.share(PathEnd::absorbed) == 1);
+    }
+  }
+
+  TEST_CASE("light that leaves, misses or is cut is counted as such") {
+    Scene out = furnace({.diffuse = 0.5});
+    for (auto& [a, b, c] : out.mesh.triangles) std::swap(b, c);
+    const LightLedger light = photon_paths(out, 1000, 1).light;
+    CHECK(light.share(PathEnd::missed) == 1);
+    CHECK(light.landings == 0);
+    Scene open = furnace({.diffuse = 0.5});
+    open.mesh.triangles.resize(open.mesh.triangles.size() / 2);
+    const LightLedger some = photon_paths(open, 1000, 1).light;
+    CHECK(some.share(PathEnd::left) > 0.05);
+    CHECK(some.share(PathEnd::missed) > 0.05);
+    CHECK(some.share(PathEnd::left) + some.share(PathEnd::missed) + some.share(PathEnd::absorbed) ==
+          doctest::Approx(1).epsilon(1e-12));
+    const LightLedger endless = photon_paths(furnace({.diffuse = 1}), 1000, 1).light;
+    CHECK(endless.photons == std::array<std::uint64_t, path_ends>{0, 0, 0, 1});
+    CHECK(endless.landings == PhotonWalk::most_pieces);
+  }
+
   TEST_CASE("a mirror box keeps all light until it is cut off; with 10 % loss the walls absorb all of it") {
     Scene scene = furnace({.diffuse = 0, .specular = 1});
-    const EnergyBalance kept(scene, 300, 1);
+    const EnergyBalance kept(scene, 2, 1);
     CHECK(kept.stopped == kept.emitted);
     CHECK(kept.absorbed() == 0);
     scene.mesh.materials.all[0].specular = 0.9;

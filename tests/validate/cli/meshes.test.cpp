@@ -31,7 +31,11 @@ TEST_SUITE("end to end") {
       CHECK(json.at("triangles").get<std::uint64_t>() > 0);
       CHECK(json.at("samples").get<std::uint64_t>() > 0);
       CHECK(json.at("rays") >= 1000);  // whole photons
-      CHECK(json.at("warnings").empty() == (name != "mixed_scale.obj"));
+      const std::string warnings = json.at("warnings").dump();
+      const bool distorted = warnings.find("lie far from the others") != std::string::npos ||
+                             warnings.find("times the median") != std::string::npos;
+      CAPTURE(warnings);
+      CHECK(distorted == (name == "mixed_scale.obj"));
       CHECK(json.at("sphere_radius").get<double>() > 0);
     }
   }

@@ -274,7 +274,8 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
                                   static_cast<double>(job.triangles), answer.choice.best(), search_error(answer),
                                   making_time(job, stop), costs[answer.choice.best().candidate.technique]);
     }
-    answer.warnings = job.warnings;
+    answer.warnings = job.all_said();
+    answer.ledgers = ledgers_json(job);
   }
   result.inputs["unit_costs"] = to_json(costs);
   result.inputs["rigor"] = name(answer.rigor);

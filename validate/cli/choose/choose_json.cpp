@@ -96,6 +96,7 @@ Json to_json(const ChooseAnswer& answer) {
               {"pilot", answer.by_sample() ? answer.choice.choosing_seconds : 0}}},
             {"choosing_share", answer.choosing_seconds / answer.choice.best().time.total()},
             {"warnings", answer.warnings}};
+  json.update(answer.ledgers);
   if (answer.ranks) json["ranks"] = to_json(*answer.ranks);
   if (answer.by_sample()) add_left_out(json, answer.choice);
   json["paper_rule"].update(extrapolated_json(answer.paper.extrapolated));

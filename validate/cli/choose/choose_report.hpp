@@ -30,6 +30,7 @@ struct ChooseAnswer {
   double evidence_seconds = 0;  ///< for measuring rays and discs, as far as the choice needs it
   double choosing_seconds = 0;  ///< with evidence and pilot
   std::vector<std::string> warnings;
+  Json ledgers = Json::object();     ///< of light and geometry
   std::optional<RanksAnswer> ranks;  ///< of --ranks
 
   /// Counted in a sample of rays, not by closed forms alone.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "detp/model/vocabulary/quoted.hpp"
+#include "detp/validate/job/light_notes.hpp"
 
 namespace detp::cli {
 namespace {
@@ -49,8 +50,8 @@ std::string scene_line(const validate::Job& job, const std::string& measured) {
 }
 
 std::string rays_line(const validate::Job& job, std::string_view before, const std::string& lengths) {
-  return fmt::format("rays      {}{} {}{}{}{}\n", before, spaced(job.given.rays), rays_of(job), photons_of(job),
-                     lengths, lights_of(job));
+  return fmt::format("rays      {}{} {}{}{}{}{}\n", before, spaced(job.given.rays), rays_of(job), photons_of(job),
+                     lengths, lights_of(job), job.light ? validate::lost_light(*job.light) : "");
 }
 
 /// ", mean length 0.30 of the scene's side", or that predictions neglect the ends; empty for lines.
@@ -126,6 +127,29 @@ Json to_json(const validate::Job& job, const validate::JobRequest& request) {
     json["up"] = sim::name(job.up);
   }
   json.update(to_json(job.workload()));
+  return json;
+}
+
+Json ledgers_json(const validate::Job& job) {
+  using enum sim::PathEnd;
+  Json json = Json::object();
+  if (job.light) {
+    const sim::LightLedger& light = *job.light;
+    const auto photons = [&](sim::PathEnd end) { return light.photons[static_cast<std::size_t>(end)]; };
+    json["light"] = {{"photons", light.all_photons()},
+                     {"absorbed", photons(absorbed)},
+                     {"left", photons(left) + photons(missed)},
+                     {"cut", photons(cut)},
+                     {"absorbed_share", light.share(absorbed)},
+                     {"left_share", light.share(left) + light.share(missed)},
+                     {"cut_share", light.share(cut)},
+                     {"landings", static_cast<double>(light.landings) / static_cast<double>(light.all_photons())}};
+  }
+  if (job.triangles > 0)
+    json["geometry"] = {{"polygons_split", job.polygons.split},
+                        {"not_plane", job.polygons.not_plane},
+                        {"degenerate", job.polygons.degenerate},
+                        {"normals_made", job.normals_made}};
   return json;
 }
 

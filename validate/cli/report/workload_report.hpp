@@ -41,10 +41,13 @@ template <class T>
 /// Resolved inputs of a job; file names as the user wrote them.
 [[nodiscard]] Json to_json(const validate::Job& job, const validate::JobRequest& request);
 
+/// `light`, where photons were traced, and `geometry` of a scene: where light and faces went.
+[[nodiscard]] Json ledgers_json(const validate::Job& job);
+
 /// The notices and warnings of the job, as notes.
 void note_all(const CommonOptions& common, const validate::Job& job);
 
-/// The lines "scene" and "rays" of the text output.
+/// The lines "scene" and "rays" of the text output; these with the light that left or was cut, if that is much.
 [[nodiscard]] std::string describe(const validate::Job& job);
 
 /// The same without what has to be measured; `before_rays` is written before the number of rays.

@@ -329,6 +329,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     if (options.target.given() && !request.ray_file) request.rays = first_rays(request.rays);
     request.stream = request.store_discs = !needs.all_rays;
     request.keep_scene = needs.scene;
+    request.in_batches = options.target.given();
     request.ranks = common.ranks;
     validate::Job job = validate::make_job(request, stop, rows.job(progress.report()));
     note_all(common, job);
@@ -341,6 +342,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     const RunAnswer found =
         run_one(options, job, costs.of(options.candidate.engine), common, stop, rows.next(progress.report()));
     if (!common.answers()) return AnswerRow{};
+    if (const std::string why = why_nothing(job, found); !why.empty()) note(common, "warning: " + why);
     stopped = write_hits(options, job, found, common, stop);
     not_reached = found.until && found.until->result.reason != validate::StopReason::target;
     if (expected == 1) text = to_text(job, found, common.screen(), options.verbose);

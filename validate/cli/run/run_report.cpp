@@ -110,6 +110,18 @@ std::string hits_text(const RunAnswer& answer) {
   return text;
 }
 
+std::uint64_t discs_without_hits(const TimedRun& run) {
+  std::uint64_t count = 0;
+  for_each_disc(run, [&](const sim::DiscResult& disc) { count += disc.hits == 0 ? 1 : 0; });
+  return count;
+}
+
+std::vector<std::string> warnings_of(const validate::Job& job, const RunAnswer& answer) {
+  std::vector<std::string> all = job.all_said();
+  if (const std::string why = why_nothing(job, answer); !why.empty()) all.push_back(why);
+  return all;
+}
+
 Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
   Json json{{"estimator", name(answer.estimator)},
@@ -151,8 +163,10 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                {"trace_seconds", job.trace_seconds + answer.run.trace_seconds},
                {"rays_in_memory", answer.run.rays_in_memory},
                {"effects", to_json(job.observed().effects)},
-               {"warnings", job.warnings},
+               {"warnings", warnings_of(job, answer)},
                {"stopped", outcome.stopped}});
+  json.update(ledgers_json(job));
+  if (json.contains("geometry") && !outcome.stopped) json["geometry"]["samples_unlit"] = discs_without_hits(answer.run);
   if (const auto& seconds = answer.run.rank_seconds; !seconds.empty())
     json["ranks"] = {{"count", seconds.size()},
                      {"share", answer.run.share == sim::Share::rays ? "rays" : "discs"},
@@ -295,6 +309,22 @@ TextColumns run_text_columns(const Screen& screen) {
           "against discs. Both as in detp model, whose unit costs are 1."};
 }
 
+std::string why_nothing(const validate::Job& job, const RunAnswer& answer) {
+  const sim::Outcome& outcome = answer.run.outcome;
+  if (outcome.stopped || outcome.total_hits > 0) return "";
+  std::string text =
+      fmt::format("no hits: none of {} rays meets one of {} discs", outcome.progress.of, job.disc_count());
+  if (!job.light) return text + ": do the discs lie where the rays are, and are they large enough?";
+  if (job.light->landings == 0) return text + ": no photon meets a surface";
+  return text + fmt::format(
+                    ", although photons land {:.3g} times each: samples at corners and edges have the mean normal of "
+                    "the faces "
+                    "around, and light that lands beside them does not cross their discs; --samples N adds samples on "
+                    "faces, and "
+                    "--estimator triangle-hits needs none",
+                    static_cast<double>(job.light->landings) / static_cast<double>(job.light->all_photons()));
+}
+
 std::string to_text(const validate::Job& job, const RunAnswer& answer, const Screen& screen, bool verbose) {
   const Timing& timing = answer.timing;
   std::string text;
@@ -313,6 +343,7 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
                                 : ", by the numbers of rays and discs: a pilot would take longer than it saves"));
   if (verbose) add(effects_line(job.observed().effects));
   add("hits      " + hits_text(answer));
+  if (const std::string why = why_nothing(job, answer); !why.empty()) add("warning   " + why);
   add(
       fmt::format("seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}{}; not included: "
                   "reading {:.3g}, making rays {:.3g}",

@@ -47,6 +47,9 @@ struct RunAnswer {
   bool random_rays = false;  ///< true for rays of a random field: the first rays are representative of all rays
 };
 
+/// What a run without hits met, and the likely reason; empty if there are hits.
+[[nodiscard]] std::string why_nothing(const validate::Job& job, const RunAnswer& answer);
+
 /// Whether a technique found the pairs, or the nearest photons.
 [[nodiscard]] inline bool has_technique(const RunAnswer& answer) {
   return sim::record_of(answer.estimator).finds_pairs || answer.estimator == sim::Estimator::nearest;

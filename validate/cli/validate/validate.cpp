@@ -86,7 +86,8 @@ validate::Experiment scene_experiment(const validate::JobRequest& request, const
                                       const std::stop_token& stop, Result& result) {
   validate::Job job = validate::make_job(request, stop);
   note_all(common, job);
-  result.json["warnings"] = job.warnings;
+  result.json["warnings"] = job.all_said();
+  result.json.update(ledgers_json(job));
   result.inputs = to_json(job, request);
   result.text = describe(job);
   add_effects(job.observed().effects, result);

@@ -29,7 +29,7 @@ TEST_SUITE("end to end") {
             doctest::test_suite("long")) {
     // Photon paths in a box: the closed forms of choose predict the tests and hits of isotropic lines, about half of the
     // counted numbers.
-    const std::string scene = " @cornell --samples 300 --rays 3200 --disc-radius 4%";
+    const std::string scene = " @cornell --samples 300 --rays 9000 --disc-radius 4%";  // photons of one power
     const Finished finished = detp("validate" + scene + " --format json");
     const Json claims = finished.json().at("claims");
     std::map<std::string, Json> by_id;

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace detp::sim {
+
+/// How a photon's path ended.
+enum class PathEnd : std::uint8_t {
+  absorbed,  ///< by a surface
+  left,      ///< the scene
+  missed,    ///< it left the scene without meeting any surface
+  cut        ///< it was longer than PhotonWalk::most_pieces
+};
+inline constexpr std::size_t path_ends = 4;
+
+/// Where the light of all photons went.
+struct LightLedger {
+  std::array<std::uint64_t, path_ends> photons = {};  ///< by PathEnd
+  std::array<double, path_ends> power = {};           ///< by PathEnd; in proportion to the flux of the lights
+  std::uint64_t landings = 0;                         ///< meetings of photons and surfaces
+
+  void add(PathEnd end, double of_photon) {
+    ++photons[static_cast<std::size_t>(end)];
+    power[static_cast<std::size_t>(end)] += of_photon;
+  }
+  void operator+=(const LightLedger& other) {
+    for (std::size_t i = 0; i < path_ends; ++i) {
+      photons[i] += other.photons[i];
+      power[i] += other.power[i];
+    }
+    landings += other.landings;
+  }
+  [[nodiscard]] std::uint64_t all_photons() const { return photons[0] + photons[1] + photons[2] + photons[3]; }
+  /// Of all power; 0 without any.
+  [[nodiscard]] double share(PathEnd end) const {
+    const double all = (power[0] + power[1]) + (power[2] + power[3]);
+    return all > 0 ? power[static_cast<std::size_t>(end)] / all : 0;
+  }
+};
+
+}  // namespace detp::sim
