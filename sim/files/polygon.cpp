@@ -15,6 +15,13 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y 
 
 /// Of a triangle: its two shorter edges are not parallel.
 bool has_area(std::span<const glm::dvec3> corners) {
+  constexpr double surely = 1e-20;  // of most triangles, the square of a sine is larger
+  constexpr double vanishing = 1e-250;
+  const glm::dvec3 u = corners[1] - corners[0];
+  const glm::dvec3 v = corners[2] - corners[0];
+  const glm::dvec3 across = glm::cross(u, v);
+  const double square = glm::dot(across, across);
+  if (square > surely * glm::dot(u, u) * glm::dot(v, v) && square > vanishing && std::isfinite(square)) return true;
   constexpr double rounding = 1e-15;
   const std::array edges{corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]};
   std::array<double, 3> lengths{};

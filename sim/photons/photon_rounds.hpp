@@ -35,7 +35,8 @@ class PhotonRounds {
   [[nodiscard]] std::uint64_t limit() const { return limit_; }
 
  private:
-  static constexpr std::uint64_t least_in_a_round = 256;
+  static constexpr std::uint64_t least_in_a_round = 256;  ///< also of the first, for paths may be long
+  static constexpr std::uint64_t most_in_second_round = 1ULL << 14;
 
   [[nodiscard]] std::uint64_t photons_needed(std::uint64_t found) const {
     const std::uint64_t missing = pieces_ - found;
@@ -43,7 +44,8 @@ class PhotonRounds {
     const double each = static_cast<double>(found) / static_cast<double>(traced_);
     const double margin = 1 + 2 / std::sqrt(static_cast<double>(traced_));  // so that a further round is rarely needed
     const double more = each > 0 ? margin * static_cast<double>(missing) / each : 2.0 * static_cast<double>(traced_);
-    const auto most = static_cast<double>(std::min(most_in_a_round_, limit_));
+    const std::uint64_t round = traced_ < most_in_second_round ? most_in_second_round : most_in_a_round_;
+    const auto most = static_cast<double>(std::min(round, limit_));
     return std::max(least_in_a_round, static_cast<std::uint64_t>(std::min(more, most)));
   }
 
