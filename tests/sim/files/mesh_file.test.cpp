@@ -184,7 +184,7 @@ TEST_SUITE("known answer") {
       area += 0.5 * glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]).z;
     }
     CHECK(area == doctest::Approx(3));
-    for (const auto& [name, text] :
+    for (const auto& [bound_name, text] :
          {std::pair<std::string, std::string>{"before.obj", "f 1 2 3 4 5 6\n" + vertices},
           {"old.obj", vertices + "fo 1 2 3 4 5 6\n"},
           {"closed.obj", vertices + "f 1 2 3 4 5 6 1\n"},
@@ -192,6 +192,7 @@ TEST_SUITE("known answer") {
           {"m.ply", head + of_vertices + of_faces + "end_header\n" + bent + "6 0 1 2 3 4 5\n"},
           {"before.ply", head + of_faces + of_vertices + "end_header\n6 0 1 2 3 4 5\n" + bent},
           {"closed.ply", head + of_vertices + of_faces + "end_header\n" + bent + "8 0 1 2 2 3 4 5 0\n"}}) {
+      const std::string& name = bound_name;
       CAPTURE(name);
       CHECK(read(folder.file(name, text)).triangles == expected);
     }

@@ -283,7 +283,9 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("long paths have all their light, and no photon of them is cut") {
-    for (const auto& [albedo, photons] : {std::pair{0.5, 3000.0}, {0.99, 1000.0}, {0.999, 1000.0}, {0.9999, 200.0}}) {
+    for (const auto& [bound_albedo, photons] :
+         {std::pair{0.5, 3000.0}, {0.99, 1000.0}, {0.999, 1000.0}, {0.9999, 200.0}}) {
+      const double albedo = bound_albedo;
       CAPTURE(albedo);
       const TracedPaths paths =
           photon_paths(furnace({.diffuse = albedo}), static_cast<std::size_t>(photons / (1 - albedo)), 5);

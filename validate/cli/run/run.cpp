@@ -112,9 +112,9 @@ Requested requested(const CandidateOptions& options, sim::Estimator estimator, c
 std::string missing_in(const Candidate& candidate, const CandidateOptions& options) {
   if (const Technique asked = options.technique_or(candidate.technique); asked != candidate.technique)
     return std::string(name(asked));
-  for (const auto& [parameter, value] : options.fixed_parameters(candidate.technique).values)
-    if (find_parameter(candidate.technique, parameter)->get(candidate.parameters) != value)
-      return std::visit([&](const auto& one) { return fmt::format("{} {}", parameter, one); }, value);
+  for (const auto& asked : options.fixed_parameters(candidate.technique).values)
+    if (find_parameter(candidate.technique, asked.first)->get(candidate.parameters) != asked.second)
+      return std::visit([&](const auto& one) { return fmt::format("{} {}", asked.first, one); }, asked.second);
   return "";
 }
 
