@@ -109,16 +109,10 @@ class PlyMeshReader {
   }
 
   void divide(std::uint64_t face, std::vector<std::uint32_t>& polygon) {
-    if (polygon.size() > 3) {  // without corners that follow themselves
-      polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
-      while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
-      if (polygon.size() < 3) throw FileError(path_, "face " + std::to_string(face + 1) + ": needs at least 3 corners");
-    }
-    corners_.clear();
-    for (const std::uint32_t corner : polygon) corners_.push_back(mesh_.positions[corner]);
-    pieces_.clear();
-    triangulator_.divide(corners_, check_, pieces_);
-    for (const auto& [a, b, c] : pieces_) memory_.push(mesh_.triangles, {polygon[a], polygon[b], polygon[c]});
+    drop_repeated_corners(polygon);
+    if (polygon.size() < 3) throw FileError(path_, "face " + std::to_string(face + 1) + ": needs at least 3 corners");
+    for (const auto& triangle : triangulator_.triangles_of(polygon, mesh_.positions, check_))
+      memory_.push(mesh_.triangles, triangle);
   }
 
   const std::string& path_;
@@ -129,8 +123,6 @@ class PlyMeshReader {
   Triangulator triangulator_;
   StopCheck check_;
   std::vector<std::uint32_t> polygon_;
-  std::vector<glm::dvec3> corners_;
-  std::vector<std::array<std::uint32_t, 3>> pieces_;
   std::vector<std::pair<std::uint64_t, std::vector<std::uint32_t>>>
       late_;  ///< faces before the vertices, and their numbers
 };

@@ -118,7 +118,7 @@ class ObjReader {
     polygon_.clear();
     for (std::string_view words = lines_.rest(), word = cut_word(words); !word.empty(); word = cut_word(words))
       memory_.push(polygon_, add_corner(corner_in(word)));
-    if (polygon_.size() > 3) drop_repeated_corners();
+    drop_repeated_corners(polygon_);
     if (polygon_.size() < 3) lines_.fail("a face needs at least 3 corners");
     const bool known = std::ranges::all_of(polygon_, [&](std::uint32_t one) { return one < mesh_.positions.size(); });
     if (known) return divide(mesh_.triangles.size());
@@ -127,20 +127,9 @@ class ObjReader {
       memory_.push(mesh_.triangles, {polygon_[0], polygon_[i - 1], polygon_[i]});
   }
 
-  /// A corner that follows itself, as where an exporter closes the outline.
-  void drop_repeated_corners() {
-    polygon_.erase(std::unique(polygon_.begin(), polygon_.end()), polygon_.end());
-    while (polygon_.size() > 1 && polygon_.front() == polygon_.back()) polygon_.pop_back();
-  }
-
   /// Puts the triangles of polygon_ at this place.
   void divide(std::size_t place) {
-    corners_.clear();
-    for (const std::uint32_t corner : polygon_) corners_.push_back(mesh_.positions[corner]);
-    pieces_.clear();
-    triangulator_.divide(corners_, check_, pieces_);
-    for (const auto& [a, b, c] : pieces_) {
-      const std::array triangle{polygon_[a], polygon_[b], polygon_[c]};
+    for (const auto& triangle : triangulator_.triangles_of(polygon_, mesh_.positions, check_)) {
       if (place == mesh_.triangles.size())
         memory_.push(mesh_.triangles, triangle);
       else
@@ -287,8 +276,6 @@ class ObjReader {
   std::vector<std::uint32_t> polygon_;
   Triangulator triangulator_;
   StopCheck check_;
-  std::vector<glm::dvec3> corners_;                   ///< of polygon_
-  std::vector<std::array<std::uint32_t, 3>> pieces_;  ///< of polygon_, numbers of its corners
   /// First triangle and corners of polygons before some of their vertices.
   std::vector<std::pair<std::size_t, std::vector<std::uint32_t>>> late_;
   std::size_t needed_ = 0;  ///< number of vertices without which a face has no corner

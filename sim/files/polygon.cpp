@@ -35,6 +35,12 @@ bool has_area(std::span<const glm::dvec3> corners) {
 
 }  // namespace
 
+void drop_repeated_corners(std::vector<std::uint32_t>& polygon) {
+  if (polygon.size() <= 3) return;
+  polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
+  while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
+}
+
 /// Fills in flat_. False if the polygon has no area.
 bool Triangulator::project(std::span<const glm::dvec3> corners) {
   double extent = 0;
@@ -97,6 +103,18 @@ void Triangulator::divide(std::span<const glm::dvec3> corners, StopCheck& check,
   }
   ++counts_.split;
   cut_ears(check, to);
+}
+
+std::span<const std::array<std::uint32_t, 3>> Triangulator::triangles_of(std::span<const std::uint32_t> polygon,
+                                                                         std::span<const glm::dvec3> positions,
+                                                                         StopCheck& check) {
+  corners_.clear();
+  for (const std::uint32_t corner : polygon) corners_.push_back(positions[corner]);
+  triangles_.clear();
+  divide(corners_, check, triangles_);
+  for (auto& triangle : triangles_)
+    for (std::uint32_t& corner : triangle) corner = polygon[corner];
+  return triangles_;
 }
 
 void Triangulator::cut_ears(StopCheck& check, std::vector<std::array<std::uint32_t, 3>>& to) {

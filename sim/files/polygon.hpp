@@ -12,6 +12,9 @@
 
 namespace detp::sim {
 
+/// Removes corners of a polygon of more than three that follow themselves, as where an exporter closes the outline.
+void drop_repeated_corners(std::vector<std::uint32_t>& polygon);
+
 /// Divides polygons into triangles. Keeps its memory from one to the next.
 class Triangulator {
  public:
@@ -23,6 +26,11 @@ class Triangulator {
   /// A polygon in no plane is divided as its projection along its mean normal. One without area, or that crosses itself, is
   /// divided somehow, and counts as degenerate. So does a triangle without area.
   void divide(std::span<const glm::dvec3> corners, StopCheck& check, std::vector<std::array<std::uint32_t, 3>>& to);
+
+  /// The triangles of a polygon whose corners are these positions, as their numbers; valid until the next call.
+  [[nodiscard]] std::span<const std::array<std::uint32_t, 3>> triangles_of(std::span<const std::uint32_t> polygon,
+                                                                           std::span<const glm::dvec3> positions,
+                                                                           StopCheck& check);
 
   /// Of all polygons so far.
   [[nodiscard]] const PolygonCounts& counts() const { return counts_; }
@@ -46,6 +54,8 @@ class Triangulator {
   [[nodiscard]] bool enters(std::uint32_t other, std::uint32_t at, std::uint32_t from, std::uint32_t to) const;
 
   PolygonCounts counts_;
+  std::vector<glm::dvec3> corners_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<glm::dvec2> flat_;  ///< corners in the plane, anticlockwise, in units of the polygon's extent
   std::vector<std::uint32_t> before_;
   std::vector<std::uint32_t> after_;

@@ -6,9 +6,8 @@
 namespace detp::sim {
 
 std::vector<double> photon_shares(std::span<const std::uint64_t> pieces, std::uint64_t wanted) {
-  constexpr std::size_t many = 4096;
   const std::size_t n = pieces.size();
-  if (n < 2 || n >= many) return {};
+  if (n < 2 || n >= many_photons) return {};
   const std::uint64_t excess = std::accumulate(pieces.begin(), pieces.end(), std::uint64_t{0}) - wanted;
   const auto may_be_last = [&](std::uint64_t own) { return own > excess; };
   const auto m = static_cast<double>(std::ranges::count_if(pieces, may_be_last));

@@ -6,6 +6,9 @@
 
 namespace detp::sim {
 
+/// From so many photons on, shares are equal: the bias is below 1/64 of the noise.
+inline constexpr std::uint64_t many_photons = 4096;
+
 /// The share of the light that each of n photons stands for, if photons were traced until their paths had `wanted` pieces or
 /// more. `pieces` has the number of each photon's pieces; without the last one there are fewer than `wanted`.
 ///
@@ -16,7 +19,7 @@ namespace detp::sim {
 ///     1/(n - 1)                of the other photons
 ///     (1 - 1/m)/(n - 1)        of these m
 ///
-/// Returns nothing for shares of 1/n: if m = n, and from 4096 photons on, where the bias is below 1/64 of the noise.
+/// Returns nothing for shares of 1/n: if m = n, and from many_photons on.
 [[nodiscard]] std::vector<double> photon_shares(std::span<const std::uint64_t> pieces, std::uint64_t wanted);
 
 }  // namespace detp::sim

@@ -130,8 +130,7 @@ void PhotonSource::add_up_light(const std::stop_token& stop) {
   const std::uint64_t last = (emitted_ - 1) / group_size;
   for (std::uint64_t group = 0; group < last; ++group) light_ += ledgers_[group];
   light_ += ledger_of(tracer_, last * group_size, trace_group(last, stop), emitted_ - last * group_size);
-  constexpr std::uint64_t many = 4096;  // as photon_shares
-  if (emitted_ >= many) return;
+  if (emitted_ >= many_photons) return;
   std::vector<std::uint64_t> pieces(emitted_);
   for (std::uint64_t group = 0; group <= last; ++group) {
     PhotonPieces traced;

@@ -71,14 +71,15 @@ TEST_SUITE("end to end") {
     }
     const Finished in = detp("run " + inwards + " --rays 20000 --estimator triangle-hits --format json");
     CHECK(in.err.empty());
-    CHECK(in.json().at("mean_irradiance").get<double>() == doctest::Approx(2 * 3.14159265).epsilon(0.04));
+    // 10 000 photons whose numbers of landings have a relative deviation of 0.71: 4.5 of it
+    CHECK(std::abs(in.json().at("mean_irradiance").get<double>() / (2 * 3.14159265) - 1) < 0.032);
     CHECK(in.json().at("light").at("absorbed_share") == 1);
     const Finished unmet = detp("run " + inwards + " --rays 20000 --technique box-tree --format json");
-    if (unmet.json().at("hits") == 0)
-      CHECK(unmet.json().at("warnings").dump().find("although photons land") != std::string::npos);
+    REQUIRE(unmet.json().at("hits") == 0);
+    CHECK(unmet.json().at("warnings").dump().find("although photons land") != std::string::npos);
   }
 
-  TEST_CASE("discs apart from the rays are told") {
+  TEST_CASE("a run whose discs lie apart from the rays says so") {
     const ScratchFolder folder;
     const std::string discs = folder.file("discs.csv", "x,y,z,nx,ny,nz,radius\n9,0,0,0,0,1,0.1\n");
     const std::string rays = folder.file("rays.csv", "ox,oy,oz,dx,dy,dz\n0,0,1,0,0,-1\n0,1,1,0,0,-1\n");
