@@ -1,5 +1,7 @@
 #include "accuracy_pilot.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +9,7 @@
 
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/photons/light_notes.hpp"
 #include "judged_samples.hpp"
 
 namespace detp::validate {
@@ -127,13 +130,17 @@ class PilotMaker {
     maker_.decide_overshoot(pilot_.sample_distance);
     for (std::size_t run = 0; run < runs; ++run) {
       sim::Stopwatch watch;
-      paths_.push_back(maker_.trace(rays_of_run_, seed(run), pilot_.sample_distance));
+      sim::TracedPaths traced = maker_.trace(rays_of_run_, seed(run), pilot_.sample_distance);
       seconds += watch.seconds() / runs;
+      pilot_.light += traced.light;
+      paths_.push_back(std::move(traced));
       photons += static_cast<double>(paths_.back().photon_count);
     }
     sim::Stopwatch watch;
-    long_paths_ = maker_.trace(4 * rays_of_run_, seed(runs), pilot_.sample_distance);
+    sim::TracedPaths longer = maker_.trace(4 * rays_of_run_, seed(runs), pilot_.sample_distance);
     set_times(seconds, watch.seconds(), pilot_.trace_fixed_seconds, pilot_.trace_seconds_per_ray);
+    pilot_.light += longer.light;
+    long_paths_ = std::move(longer);
     pilot_.trace_fixed_seconds += maker_.caster_seconds();
     pilot_.photons_per_ray = photons / static_cast<double>(runs * rays_of_run_);
   }
@@ -178,10 +185,14 @@ class PilotMaker {
     own_bias_ = {std::max(0.0, own_bias_.mean), std::hypot(own_bias_.standard_error, std::max(0.0, own_bias_.mean))};
     const Estimate mean_square = jackknife(reference, judged_.weights, &Sums::square);
     pilot_.mean_square = mean_square.mean;
-    if (!(mean_square.mean > 2 * mean_square.standard_error))
-      throw std::invalid_argument("the pilot's photons hardly meet the samples of " + scene_.name +
-                                  ": give more rays (--rays), or other samples");
+    if (!(mean_square.mean > 2 * mean_square.standard_error)) throw NoLight(without_light());
     return reference;
+  }
+
+  [[nodiscard]] std::string without_light() const {
+    const std::vector<std::string> reasons = sim::light_warnings(pilot_.light, scene_.lights);
+    return fmt::format("the pilot's {} photons hardly meet the samples of {}: {}", pilot_.light.all_photons(),
+                       scene_.name, reasons.empty() ? "do samples lie where the light is?" : reasons.front());
   }
 
   /// The same values for each run. Their variance is what `own_bias_` subtracts.
@@ -197,8 +208,7 @@ class PilotMaker {
       squares += squared(reference.irradiance[i]) / count;
     }
     pilot_.mean_square = squares - variance;
-    if (!(pilot_.mean_square > 0))
-      throw std::invalid_argument("no light reaches the samples of the reference of " + scene_.name);
+    if (!(pilot_.mean_square > 0)) throw NoLight("no light reaches the samples of the reference of " + scene_.name);
     own_bias_ = {-variance, std::sqrt(2 * variance_squares)};
     return Runs(runs, reference.irradiance);
   }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <stop_token>
 #include <vector>
 
 #include "detp/sim/base/phase.hpp"
+#include "detp/sim/photons/light_ledger.hpp"
 #include "detp/sim/ranks/ranks.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "reference.hpp"
@@ -62,6 +64,7 @@ struct AccuracyPilot {
   double reference_radius = 0;  ///< of the area-corrected estimates with which all are compared; 0: with a Reference
   double rays = 0;              ///< of all runs together
   double seconds = 0;           ///< that the pilot took
+  sim::LightLedger light = {};  ///< of its photons
 
   [[nodiscard]] double trace_seconds(double rays_of_run) const {
     return trace_fixed_seconds + trace_seconds_per_ray * rays_of_run;
@@ -85,6 +88,11 @@ struct AccuracyPilotOptions {
   sim::Ranks* ranks = nullptr;  ///< that have the same scene and reference, and share reruns; null: this process alone
 };
 
+/// The pilot's photons hardly meet the samples: no error is known. It says why that may be.
+struct NoLight : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
 /// Radii are h/4, h/2, h and 2h, h the mean edge of the triangles, unless others are given. Six runs of independent photons at up to 2000 of the scene's samples, weighted
 /// by the area around each:
 ///
@@ -96,7 +104,7 @@ struct AccuracyPilotOptions {
 /// AccuracyPilotOptions::reference, runs are at its samples, and bias² as in split_error. Standard errors by the jackknife over the
 /// runs.
 ///
-/// Throws std::invalid_argument for a scene without triangles, lights or light on its samples; sim::Stopped on a stop request.
+/// Throws std::invalid_argument for a scene without triangles or lights; NoLight; sim::Stopped on a stop request.
 [[nodiscard]] AccuracyPilot make_accuracy_pilot(sim::Scene& scene, const AccuracyPilotOptions& options);
 
 }  // namespace detp::validate

@@ -44,7 +44,7 @@ bool ReplicateMaker::goes_on(double radius) {
   return on;
 }
 
-sim::Paths ReplicateMaker::trace(std::size_t rays, std::uint64_t seed, double radius) {
+sim::TracedPaths ReplicateMaker::trace(std::size_t rays, std::uint64_t seed, double radius) {
   scene_.overshoot = goes_on(radius) ? sim::overshoot_over_radius * radius : 0;
   return sim::photon_paths(scene_, rays, seed, caster_, stop_);
 }

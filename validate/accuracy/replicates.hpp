@@ -8,6 +8,7 @@
 
 #include "detp/sim/estimate/estimate.hpp"
 #include "detp/sim/geometry/paths.hpp"
+#include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/ray_caster.hpp"
 #include "detp/sim/scene/scene.hpp"
 #include "detp/sim/search/index.hpp"
@@ -43,7 +44,7 @@ class ReplicateMaker {
 
   /// At least so many pieces of paths. `radius` says how far they go on beyond the surfaces where they end, if the discs of this
   /// radius would shadow themselves otherwise (sim/effects/self_shadow.hpp); 0: not at all.
-  [[nodiscard]] sim::Paths trace(std::size_t rays, std::uint64_t seed, double radius);
+  [[nodiscard]] sim::TracedPaths trace(std::size_t rays, std::uint64_t seed, double radius);
 
   /// Throws as sim::estimate; sim::Stopped if a stop request came.
   [[nodiscard]] sim::Outcome estimate(const sim::PathRays& paths, std::span<const sim::Sample> samples,

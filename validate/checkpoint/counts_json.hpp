@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "detp/model/vocabulary/counts.hpp"
+#include "detp/sim/photons/light_ledger.hpp"
 
 namespace detp {
 
@@ -11,3 +12,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Counts<std::uint64_t>, loaded, segments, cull
                                    disc_tests, doubtful, steps, nodes, references, placements, made, sorted, hits)
 
 }  // namespace detp
+
+namespace detp::sim {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LightLedger, photons, power, landings)
+
+}  // namespace detp::sim

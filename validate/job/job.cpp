@@ -55,15 +55,15 @@ void Job::take_numbers(Workload& workload) const {
   workload.box = numbers->box;
 }
 
-sim::Paths Job::more_rays(std::uint64_t made, std::uint64_t batch, std::size_t count,
-                          const std::stop_token& stop_request) const {
+sim::TracedPaths Job::more_rays(std::uint64_t made, std::uint64_t batch, std::size_t count,
+                                const std::stop_token& stop_request) const {
   if (rays_from_file) throw std::invalid_argument("a ray file has no further rays");
   if (field == sim::Field::photons) {
     if (!scene) throw std::invalid_argument("further photon paths need the scene, which was not kept");
     return sim::photon_paths(*scene, count, seed + 0x9e3779b97f4a7c15ULL * (batch + 1), caster, stop_request,
                              sim::PhotonPowers::equal);
   }
-  sim::Paths lines;
+  sim::TracedPaths lines;
   lines.rays.resize(count);
   field_rays(made + count, stop_request)->read(made, lines.rays, stop_request);
   lines.photon_count = count;

@@ -13,7 +13,7 @@
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/effects/observe.hpp"
 #include "detp/sim/geometry/disc_source.hpp"
-#include "detp/sim/photons/light_ledger.hpp"
+#include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/ray_caster.hpp"
 #include "detp/sim/ranks/ranks.hpp"
 #include "detp/sim/rays/mixed_field.hpp"
@@ -128,7 +128,7 @@ struct Job {
   std::optional<Workload> numbers =
       {};  ///< of a workload in numbers: S₀ and box are its own, not those around the discs
   sim::Notices notices;
-  /// warnings about light that is lost (light_notes.hpp), and about a few discs or rays that distort the workload (outliers.hpp)
+  /// warnings about light that is lost (sim/photons/light_notes.hpp), and about a few discs or rays that distort the workload (outliers.hpp)
   std::vector<std::string> warnings;
   bool front_facing = false;
   bool rays_from_file = false;
@@ -148,8 +148,8 @@ struct Job {
   /// Further rays of the same kind, at least so many, to the end of the last photon's path. Lines are those that follow the first `made` of the
   /// field, of which the job's own are the beginning. Photon paths are independent of the job's own, and of those of other batches. Throws std::invalid_argument for rays of a file, and for
   /// photon paths without keep_scene; sim::Stopped on a stop request.
-  [[nodiscard]] sim::Paths more_rays(std::uint64_t made, std::uint64_t batch, std::size_t rays,
-                                     const std::stop_token& stop = {}) const;
+  [[nodiscard]] sim::TracedPaths more_rays(std::uint64_t made, std::uint64_t batch, std::size_t rays,
+                                           const std::stop_token& stop = {}) const;
   /// Measured on discs and rays (of a stream on rays_of_workload: its first, or pieces of a whole file) when it is first asked for; not for use from several threads. Throws
   /// as sim::observe, sim::Stopped on the stop request of `measuring`, and std::invalid_argument as check(Workload).
   [[nodiscard]] const Workload& workload() const;

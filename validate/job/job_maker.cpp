@@ -19,6 +19,7 @@
 #include "detp/sim/files/stored_rays.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
+#include "detp/sim/photons/light_notes.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/photon_source.hpp"
 #include "detp/sim/photons/photon_walk.hpp"
@@ -26,7 +27,6 @@
 #include "detp/sim/technique/ranked.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "job_progress.hpp"
-#include "light_notes.hpp"
 #include "outliers.hpp"
 
 namespace detp::validate {
@@ -315,7 +315,7 @@ class JobMaker {
     } else {
       job_.check_problem(request_.threads, stop_);
     }
-    if (job_.light) job_.warnings = light_warnings(*job_.light, job_.lights);
+    if (job_.light) job_.warnings = sim::light_warnings(*job_.light, job_.lights);
     for (std::string& one : outlier_warnings(of_first ? *of_first : job_.problem(), stop_))
       job_.warnings.push_back(std::move(one));
     if (request_.workload_only && !request_.ray_file)

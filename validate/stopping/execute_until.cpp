@@ -35,7 +35,7 @@ void check(const RayBatch& batch) {
 
 FoundBatch found_batch(const RayBatch& made, const sim::Outcome& found, double make_seconds) {
   if (found.stopped) throw sim::Stopped("stopped during a batch");
-  FoundBatch batch{{found.irradiance, made.photons, made.rays.rays.size()}, found, make_seconds};
+  FoundBatch batch{{found.irradiance, made.photons, made.rays.rays.size()}, found, make_seconds, made.light};
   for (double& irradiance : batch.batch.irradiance) irradiance *= made.scale;
   return batch;
 }
@@ -49,6 +49,7 @@ ExecutedUntil execute_until(const FindBatch& find, std::vector<double> weights, 
     std::optional<FoundBatch> found = find(rays, following);
     if (!found) return std::nullopt;
     all.make_seconds += found->make_seconds;
+    all.light += found->light;
     const sim::Outcome& outcome = found->outcome;
     add_block(outcome, all.outcome);
     all.outcome.hits.resize(outcome.hits.size());
@@ -98,7 +99,8 @@ std::optional<RayBatch> StoredBatches::next(std::uint64_t rays) {
   return RayBatch{{all_.rays.subspan(first, count), part(all_.photons, first, count), part(all_.landings, first, count),
                    photon(given_), part(all_.triangles, first, count)},
                   photons,
-                  static_cast<double>(photons_) / photons};
+                  static_cast<double>(photons_) / photons,
+                  {}};
 }
 
 }  // namespace detp::validate

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "detp/sim/geometry/paths.hpp"
+#include "detp/sim/photons/light_ledger.hpp"
 #include "detp/sim/search/outcome.hpp"
 #include "detp/validate/choice/plan.hpp"
 #include "run_until.hpp"
@@ -18,8 +19,9 @@ namespace detp::validate {
 /// Rays of whole photons. They must stay until the next batch is made.
 struct RayBatch {
   sim::PathRays rays;
-  double photons = 0;  ///< emitted, with those that gave no ray; without photon numbers: the number of rays
-  double scale = 1;    ///< irradiance of these rays times `scale`: that as if they were all photons
+  double photons = 0;           ///< emitted, with those that gave no ray; without photon numbers: the number of rays
+  double scale = 1;             ///< irradiance of these rays times `scale`: that as if they were all photons
+  sim::LightLedger light = {};  ///< of photons that were traced for it
 };
 
 /// Throws std::invalid_argument unless photons and scale are finite and > 0, and the rays' numbered photons at most `photons`.
@@ -33,6 +35,7 @@ struct FoundBatch {
   Batch batch;
   sim::Outcome outcome;     ///< its irradiance is that of the batch
   double make_seconds = 0;  ///< for making the rays
+  sim::LightLedger light = {};
 };
 
 /// As NextBatch.
@@ -43,8 +46,9 @@ using FindBatch = std::function<std::optional<FoundBatch>(std::uint64_t rays, st
 
 struct ExecutedUntil {
   UntilResult result;
-  sim::Outcome outcome;     ///< hits, counts and seconds of all batches; no irradiance
-  double make_seconds = 0;  ///< for making the rays
+  sim::Outcome outcome;         ///< hits, counts and seconds of all batches; no irradiance
+  double make_seconds = 0;      ///< for making the rays
+  sim::LightLedger light = {};  ///< of all batches
 };
 
 /// Called after each batch, and when a stop request ends the run, with what a run needs to go on from there: the state, which is copied when asked for, and the outcome so far.

@@ -72,7 +72,7 @@ std::optional<RayBatch> JobBatches::next(std::uint64_t rays) {
 RayBatch JobBatches::at(const Place& place, std::uint64_t rays) {
   more_ = job_.more_rays(place.made, place.batch, static_cast<std::size_t>(rays), stop_);
   const auto photons = static_cast<double>(more_.photon_count);
-  return {more_, photons, powers_add_up(job_) ? 1 / photons : 1};
+  return {more_, photons, powers_add_up(job_) ? 1 / photons : 1, more_.light};
 }
 
 std::vector<double> weights_of(const Job& job) {

@@ -56,7 +56,7 @@ class JobBatches {
   const Job& job_;
   std::stop_token stop_;
   StoredBatches own_;
-  sim::Paths more_;
+  sim::TracedPaths more_;
   std::uint64_t batches_ = 0;  ///< that were given
   std::uint64_t made_ = 0;     ///< their rays
 };

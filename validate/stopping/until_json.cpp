@@ -23,9 +23,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairedBatches::State, unit, sums, pending, pe
                                    products_of_squares, squares_of_products)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UntilState, batches, rays, tests, stage_rays, stage_is_test, stage_is_last,
                                    stage_batches)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ExecutedUntil, outcome, make_seconds)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ExecutedUntil, outcome, make_seconds, light)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Batch, irradiance, photons, rays)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FoundBatch, batch, outcome, make_seconds)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FoundBatch, batch, outcome, make_seconds, light)
 
 nlohmann::json json_of(const Candidate& candidate, const UntilState& state, const ExecutedUntil& so_far) {
   return {{"technique", name(candidate.technique)},

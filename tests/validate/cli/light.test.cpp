@@ -46,6 +46,15 @@ TEST_SUITE("end to end") {
       for (const char* count : {"polygons_split", "not_plane", "degenerate", "normals_made"})
         CHECK(json.at("geometry").at(count) == 0);
     }
+    const Json until = result_of("run @cornell --target-noise 20% --estimator triangle-hits");
+    CHECK(until.at("rays").get<double>() > (1 << 16) + 1000);  // more than the first stage
+    CHECK(until.at("light").at("photons") == until.at("photons"));
+    CHECK(std::abs(sum_of_shares(until.at("light")) - 1) < 1e-12);
+    const Json accuracy = result_of("accuracy @cornell --effort quick --estimators triangle-hits");
+    CHECK(accuracy.at("light").at("photons").get<double>() > 1000);
+    CHECK(std::abs(sum_of_shares(accuracy.at("light")) - 1) < 1e-12);
+    CHECK(accuracy.at("geometry").at("degenerate") == 0);
+    CHECK(accuracy.at("warnings").empty());
     const Json lines = result_of("run @tree --field isotropic --rays 3000");
     CHECK_FALSE(lines.contains("light"));
     CHECK(lines.at("geometry").at("samples_unlit").get<int>() > 0);
@@ -68,6 +77,12 @@ TEST_SUITE("end to end") {
       CHECK(json.at("warnings").dump().find("do emitters face outwards?") != std::string::npos);
       if (command.starts_with("run"))
         CHECK(json.at("warnings").dump().find("no photon meets a surface") != std::string::npos);
+    }
+    for (const std::string& command : {"accuracy " + outwards, "run " + outwards + " --target-error 5%"}) {
+      CAPTURE(command);
+      const Finished finished = detp(command);
+      CHECK(finished.code == 2);
+      CHECK(finished.err.find("100 % of the light leaves the scene without meeting a surface") != std::string::npos);
     }
     const Finished in = detp("run " + inwards + " --rays 20000 --estimator triangle-hits --format json");
     CHECK(in.err.empty());

@@ -14,6 +14,7 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/open/open_scene.hpp"
+#include "detp/sim/photons/light_notes.hpp"
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
@@ -246,6 +247,8 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
                         .axes = {},
                         .in_time = {}};
   answer.side = scene.box.longest_side();
+  answer.polygons = scene.mesh.polygons;
+  answer.normals_made = scene.mesh.normals_made;
   const auto reference = [&] {
     return validate::kept_reference(
         *options.reference, scene,
@@ -264,7 +267,13 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
     return {};
   }
   KeptAccuracy saved(options, scene, target, most_rays, common.seed, stop);
+  const auto say = [&](const std::string& text, const std::string& before) {
+    note(common, before + text);
+    answer.warnings.push_back(text);
+  };
+  for (const std::string& notice : scene.notices) say(notice, "");
   std::optional<sim::Progress> stopped = find_answer(answer, scene, target, pilot, most_rays, saved);
+  for (const std::string& warning : sim::light_warnings(answer.pilot.light, scene.lights)) say(warning, "warning: ");
   pilot.seed += seeds_apart;
   const validate::AccuracyPoint& best = answer.plan.answer;
   if (options.seeds && !stopped && !too_large(best)) {

@@ -1,6 +1,7 @@
 #include "accuracy_checkpoint.hpp"
 
 #include "detp/validate/accuracy/accuracy_json.hpp"
+#include "detp/validate/checkpoint/counts_json.hpp"
 #include "detp/validate/checkpoint/estimate_json.hpp"
 
 namespace detp::validate {
@@ -8,7 +9,8 @@ namespace detp::validate {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SettingPilot, setting, scale, noise_squared_times_rays, bias_squared, seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EstimatorPilot, estimator, settings, fixed_share, rays_of_run, runs, surface_seconds)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AccuracyPilot, estimators, trace_fixed_seconds, trace_seconds_per_ray,
-                                   photons_per_ray, mean_square, sample_distance, reference_radius, rays, seconds)
+                                   photons_per_ray, mean_square, sample_distance, reference_radius, rays, seconds,
+                                   light)
 
 }  // namespace detp::validate
 

@@ -24,6 +24,9 @@ struct AccuracyAnswer {
   std::vector<validate::AxisPoint> axes;  ///< other than estimators
   validate::AccuracyPoint in_time;        ///< the best way in twice the answer's time
   double seconds = 0;                     ///< that the pilots and the check took
+  sim::PolygonCounts polygons = {};       ///< of the scene's mesh
+  std::uint64_t normals_made = 0;
+  std::vector<std::string> warnings = {};  ///< that were noted
 };
 
 /// "detp run @cornell --rays 3.4e5 --estimator disc --disc-radius 0.021".

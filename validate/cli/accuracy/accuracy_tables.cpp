@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/shell_word.hpp"
 #include "detp/validate/cli/text/table.hpp"
 
@@ -133,7 +134,10 @@ Json to_json(const AccuracyAnswer& answer) {
           {"reference", reference_json(answer)},
           {"reruns", reruns_json(answer)},
           {"planning_seconds", answer.seconds},
-          {"pilot_rays", answer.pilot.rays}};
+          {"pilot_rays", answer.pilot.rays},
+          {"light", light_json(answer.pilot.light)},
+          {"geometry", geometry_json(answer.polygons, answer.normals_made)},
+          {"warnings", answer.warnings}};
 }
 
 std::string csv_of(const AccuracyAnswer& answer) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/validate/job/light_notes.hpp"
+#include "detp/sim/photons/light_notes.hpp"
 
 namespace detp::cli {
 namespace {
@@ -51,7 +51,7 @@ std::string scene_line(const validate::Job& job, const std::string& measured) {
 
 std::string rays_line(const validate::Job& job, std::string_view before, const std::string& lengths) {
   return fmt::format("rays      {}{} {}{}{}{}{}\n", before, spaced(job.given.rays), rays_of(job), photons_of(job),
-                     lengths, lights_of(job), job.light ? validate::lost_light(*job.light) : "");
+                     lengths, lights_of(job), job.light ? sim::lost_light(*job.light) : "");
 }
 
 /// ", mean length 0.30 of the scene's side", or that predictions neglect the ends; empty for lines.
@@ -130,26 +130,30 @@ Json to_json(const validate::Job& job, const validate::JobRequest& request) {
   return json;
 }
 
-Json ledgers_json(const validate::Job& job) {
+Json light_json(const sim::LightLedger& light) {
   using enum sim::PathEnd;
+  const auto photons = [&](sim::PathEnd end) { return light.photons[static_cast<std::size_t>(end)]; };
+  return {{"photons", light.all_photons()},
+          {"absorbed", photons(absorbed)},
+          {"left", photons(left) + photons(missed)},
+          {"cut", photons(cut)},
+          {"absorbed_share", light.share(absorbed)},
+          {"left_share", light.share(left) + light.share(missed)},
+          {"cut_share", light.share(cut)},
+          {"landings", static_cast<double>(light.landings) / static_cast<double>(light.all_photons())}};
+}
+
+Json geometry_json(const sim::PolygonCounts& polygons, std::uint64_t normals_made) {
+  return {{"polygons_split", polygons.split},
+          {"not_plane", polygons.not_plane},
+          {"degenerate", polygons.degenerate},
+          {"normals_made", normals_made}};
+}
+
+Json ledgers_json(const validate::Job& job) {
   Json json = Json::object();
-  if (job.light) {
-    const sim::LightLedger& light = *job.light;
-    const auto photons = [&](sim::PathEnd end) { return light.photons[static_cast<std::size_t>(end)]; };
-    json["light"] = {{"photons", light.all_photons()},
-                     {"absorbed", photons(absorbed)},
-                     {"left", photons(left) + photons(missed)},
-                     {"cut", photons(cut)},
-                     {"absorbed_share", light.share(absorbed)},
-                     {"left_share", light.share(left) + light.share(missed)},
-                     {"cut_share", light.share(cut)},
-                     {"landings", static_cast<double>(light.landings) / static_cast<double>(light.all_photons())}};
-  }
-  if (job.triangles > 0)
-    json["geometry"] = {{"polygons_split", job.polygons.split},
-                        {"not_plane", job.polygons.not_plane},
-                        {"degenerate", job.polygons.degenerate},
-                        {"normals_made", job.normals_made}};
+  if (job.light) json["light"] = light_json(*job.light);
+  if (job.triangles > 0) json["geometry"] = geometry_json(job.polygons, job.normals_made);
   return json;
 }
 

@@ -41,7 +41,11 @@ template <class T>
 /// Resolved inputs of a job; file names as the user wrote them.
 [[nodiscard]] Json to_json(const validate::Job& job, const validate::JobRequest& request);
 
-/// `light`, where photons were traced, and `geometry` of a scene: where light and faces went.
+/// Where light and faces went.
+[[nodiscard]] Json light_json(const sim::LightLedger& light);
+[[nodiscard]] Json geometry_json(const sim::PolygonCounts& polygons, std::uint64_t normals_made);
+
+/// `light`, where photons were traced, and `geometry` of a scene.
 [[nodiscard]] Json ledgers_json(const validate::Job& job);
 
 /// The notices and warnings of the job, as notes.

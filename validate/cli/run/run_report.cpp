@@ -166,6 +166,11 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                {"warnings", warnings_of(job, answer)},
                {"stopped", outcome.stopped}});
   json.update(ledgers_json(job));
+  if (job.light && answer.until) {
+    sim::LightLedger all = *job.light;
+    all += answer.until->light;
+    json["light"] = light_json(all);
+  }
   if (json.contains("geometry") && !outcome.stopped) json["geometry"]["samples_unlit"] = discs_without_hits(answer.run);
   if (const auto& seconds = answer.run.rank_seconds; !seconds.empty())
     json["ranks"] = {{"count", seconds.size()},

@@ -24,7 +24,8 @@ struct UntilAnswer {
   double confidence = 0;
   validate::UntilResult result = {};
   std::optional<BiasEstimate> bias = {};
-  double seconds = 0;  ///< with choosing, the bias's pilot, tracing and building
+  double seconds = 0;           ///< with choosing, the bias's pilot, tracing and building
+  sim::LightLedger light = {};  ///< of the batches that follow the job's own rays
 
   /// Noise and bias together; without a known bias the noise.
   [[nodiscard]] validate::NoiseInterval error() const {

@@ -166,12 +166,14 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   answer.run.trace_seconds = found.make_seconds;
   answer.run.rays_in_memory = job.rays.size();
   answer.timing.phases = outcome.seconds;
+  until.light = found.light;
   until.result = std::move(found.result);
   if (!until.bias && has_bias(job) && until.result.reason != validate::StopReason::time) try {
       constexpr double share = 0.25;  // of the run's rays: the user asked for noise alone
       until.bias =
           bias_of(job, answer.estimator, target.error, share * static_cast<double>(until.result.rays), threads, stop);
     } catch (const sim::Stopped&) {  // the answer is complete without it
+    } catch (const validate::NoLight&) {
     }
   until.seconds = watch.seconds() + job.trace_seconds;
   answer.until = std::move(until);

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "detp/sim/photons/photon_walk.hpp"
+#include "photon_walk.hpp"
 
-namespace detp::validate {
+namespace detp::sim {
 namespace {
 
 constexpr double hardly_any = 0.01;
@@ -15,8 +15,8 @@ std::string percent(double share) { return fmt::format("{:.{}g} %", 100 * share,
 
 }  // namespace
 
-std::string lost_light(const sim::LightLedger& light) {
-  using enum sim::PathEnd;
+std::string lost_light(const LightLedger& light) {
+  using enum PathEnd;
   const double gone = light.share(left) + light.share(missed);
   std::string text;
   if (gone > hardly_any) text += fmt::format(", {} left the scene", percent(gone));
@@ -24,20 +24,20 @@ std::string lost_light(const sim::LightLedger& light) {
   return text;
 }
 
-std::vector<std::string> light_warnings(const sim::LightLedger& light, const std::vector<sim::Light>& lights) {
+std::vector<std::string> light_warnings(const LightLedger& light, const std::vector<Light>& lights) {
   std::vector<std::string> warnings;
   const bool surfaces_emit =
-      std::ranges::any_of(lights, [](const sim::Light& one) { return sim::kind_of(one) == sim::LightKind::surface; });
-  if (const double share = light.share(sim::PathEnd::missed); surfaces_emit && share > hardly_any)
+      std::ranges::any_of(lights, [](const Light& one) { return kind_of(one) == LightKind::surface; });
+  if (const double share = light.share(PathEnd::missed); surfaces_emit && share > hardly_any)
     warnings.push_back(fmt::format(
         "{} of the light leaves the scene without meeting a surface: a surface emits on its front, from which its "
         "corners run anticlockwise; do emitters face outwards?",
         percent(share)));
-  if (const std::uint64_t photons = light.photons[static_cast<std::size_t>(sim::PathEnd::cut)]; photons > 0)
+  if (const std::uint64_t photons = light.photons[static_cast<std::size_t>(PathEnd::cut)]; photons > 0)
     warnings.push_back(fmt::format(
         "the paths of {} photons, {} of the light, were cut after {} pieces: surfaces absorb nearly nothing", photons,
-        percent(light.share(sim::PathEnd::cut)), sim::PhotonWalk::most_pieces));
+        percent(light.share(PathEnd::cut)), PhotonWalk::most_pieces));
   return warnings;
 }
 
-}  // namespace detp::validate
+}  // namespace detp::sim
