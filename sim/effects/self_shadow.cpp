@@ -5,17 +5,20 @@
 #include <utility>
 #include <vector>
 
-#include "all_effects.hpp"
-#include "concave_surfaces.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/photons/photon_walk.hpp"
+#include "detp/sim/scene/resample.hpp"
 #include "detp/sim/technique/technique.hpp"
 
 namespace detp::sim {
 namespace {
 
-constexpr std::size_t enough_pieces = 2048;
-constexpr std::uint64_t most_photons = 2048;
+constexpr std::size_t enough_pieces = 4096;
+constexpr std::uint64_t most_photons = 16384;
+constexpr std::size_t pilot_discs = 8192;
+constexpr double radius_of_pilot = 0.02;  // of the scene's longest side
+constexpr double tolerated = 0.01;
+constexpr std::uint64_t seed = 1;
 constexpr double still_in_plane = 0.05;  // below the surface's plane, in disc radii
 
 /// A piece of a path that goes on through the surface where it ends.
@@ -65,7 +68,7 @@ struct Power {
 
 std::vector<Power> hits_of(const Landings& all, std::span<const Disc> discs, bool front_facing,
                            const std::stop_token& stop) {
-  if (all.rays.empty()) return {};  // no light meets a surface
+  if (all.rays.empty() || discs.empty()) return std::vector<Power>(all.rays.size());  // no light meets a surface
   const Problem problem = make_problem(all.rays, discs, front_facing, 1, stop);
   RunOptions options{.count = false, .pairs = true, .stop = stop};
   const Outcome outcome = run(problem, Candidate{Technique::box_tree, BoxTreeParameters{}}, options);
@@ -88,6 +91,16 @@ std::vector<Power> hits_of(const Landings& all, std::span<const Disc> discs, boo
   return power;
 }
 
+std::vector<Disc> discs_by_area(const Scene& scene, const std::stop_token& stop) {
+  std::vector<Sample> samples;
+  add_by_area(samples, scene.mesh, pilot_discs, seed, stop);
+  std::vector<Disc> discs;
+  for (const Sample& sample : samples)
+    if (sample.normal != glm::dvec3{0.0})
+      discs.push_back({sample.position, sample.normal, radius_of_pilot * scene.box.longest_side()});
+  return discs;
+}
+
 }  // namespace
 
 double overshoot_for(std::span<const Disc> discs) {
@@ -96,10 +109,9 @@ double overshoot_for(std::span<const Disc> discs) {
   return overshoot_over_radius * largest;
 }
 
-Finding self_shadow(const Scene& scene, std::shared_ptr<const RayCaster> caster, std::span<const Disc> discs,
-                    bool front_facing, std::uint64_t seed, const std::stop_token& stop) {
-  const Finding neighbours = concavity(discs, front_facing, stop);
-  if (!concave_surfaces.threshold.passed(neighbours.value)) return {};
+Finding self_shadow(const Scene& scene, std::shared_ptr<const RayCaster> caster, bool front_facing,
+                    const std::stop_token& stop) {
+  const std::vector<Disc> discs = discs_by_area(scene, stop);
   PhotonWalk walk(scene, seed, std::move(caster));
   walk.set_overshoot(overshoot_for(discs));
   const Landings all = traced(walk, scene.mesh, stop);
@@ -110,11 +122,11 @@ Finding self_shadow(const Scene& scene, std::shared_ptr<const RayCaster> caster,
     before += one.before;
     gained += one.gained;
   }
-  if (!(before > 0)) return {.value = gained > 0 ? 1.0 : 0.0, .standard_error = 1};
+  if (!(before > 0)) return {.value = tolerated};
   const double value = gained / before;
   double squares = 0;
   for (const Power& one : power) squares += std::pow(one.gained - value * one.before, 2);
-  return {.value = value, .standard_error = std::sqrt(squares) / before};
+  return {.value = value + tolerated, .standard_error = std::sqrt(squares) / before};
 }
 
 }  // namespace detp::sim

@@ -21,9 +21,17 @@ std::vector<Disc> read_discs(const std::string& path, std::optional<double> defa
   return discs;
 }
 
-void write_discs(const std::string& path, const std::vector<Disc>& discs, const std::stop_token& stop) {
-  TableWriter file(path, {"x", "y", "z", "nx", "ny", "nz", "radius"}, discs.size(), "discs", stop);
-  for (const auto& [c, n, radius] : discs) file.write(std::array{c.x, c.y, c.z, n.x, n.y, n.z, radius});
+void write_discs(const std::string& path, const std::vector<Disc>& discs, const std::stop_token& stop,
+                 std::span<const std::uint32_t> vertices) {
+  std::vector<std::string_view> columns{"x", "y", "z", "nx", "ny", "nz", "radius"};
+  if (!vertices.empty()) columns.emplace_back("vertex");
+  TableWriter file(path, columns, discs.size(), "discs", stop);
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const auto& [c, n, radius] = discs[i];
+    const double vertex = vertices.empty() || vertices[i] == no_vertex ? -1 : vertices[i];
+    const std::array row{c.x, c.y, c.z, n.x, n.y, n.z, radius, vertex};
+    file.write(std::span(row).first(columns.size()));
+  }
   file.commit();
 }
 

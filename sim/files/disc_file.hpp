@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -9,7 +11,7 @@
 
 namespace detp::sim {
 
-/// Reads discs: CSV with the header x,y,z,nx,ny,nz and optionally radius (columns in any order), or PLY with those
+/// Reads discs: CSV with the header x,y,z,nx,ny,nz and optionally radius and vertex, which is not used (columns in any order), or PLY with those
 /// vertex properties. Normals are normalised.
 ///
 /// default_radius is used if the column radius is missing, or a field of it is empty. Throws FileError with the line
@@ -19,8 +21,9 @@ namespace detp::sim {
 [[nodiscard]] std::vector<Disc> read_discs(const std::string& path, std::optional<double> default_radius,
                                            std::stop_token stop = {});
 
-/// Writes discs with the columns x,y,z,nx,ny,nz,radius, as CSV or PLY: table_writer.hpp. The same doubles are read back. Throws
+/// Writes discs with the columns x,y,z,nx,ny,nz,radius, and vertex if there are vertices (-1: none), as CSV or PLY: table_writer.hpp. The same doubles are read back. Throws
 /// FileError if the file cannot be written, and Stopped.
-void write_discs(const std::string& path, const std::vector<Disc>& discs, const std::stop_token& stop = {});
+void write_discs(const std::string& path, const std::vector<Disc>& discs, const std::stop_token& stop = {},
+                 std::span<const std::uint32_t> vertices = {});
 
 }  // namespace detp::sim

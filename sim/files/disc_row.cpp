@@ -16,7 +16,8 @@ std::vector<TableColumn> disc_columns(std::optional<double> default_radius) {
           {"nx", {}, {}},
           {"ny", {}, {}},
           {"nz", {}, {}},
-          {"radius", default_radius, default_radius, ", and no default radius is given"}};
+          {"radius", default_radius, default_radius, ", and no default radius is given"},
+          {"vertex", -1.0, -1.0}};
 }
 
 Disc disc_in(const TableRow& row) {

@@ -23,25 +23,6 @@
 namespace detp::sim {
 namespace {
 
-/// If the sum of n unit normals is shorter than n·least_sum, the normals count as cancelling: the sum is only rounding.
-constexpr double least_sum = 1e-6;
-
-/// The sum of the unit normals of the corners at a position.
-struct CornerNormals {
-  glm::dvec3 sum{0.0};
-  glm::dvec3 first{0.0};
-  double count = 0;
-
-  void add(const glm::dvec3& normal) {
-    if (count == 0) first = normal;
-    sum += normal;
-    ++count;
-  }
-
-  /// The sum; the first normal if the normals cancel, as at a plant's leaf that has one triangle for each side.
-  [[nodiscard]] glm::dvec3 vector() const { return glm::length(sum) < least_sum * count ? first : sum; }
-};
-
 /// Lets a table with strings as keys be searched for a part of a line.
 struct HashOfName {
   using is_transparent = void;
@@ -70,9 +51,50 @@ class Libraries {
 };
 
 /// Indices of a face's corner as written in the file; 0: none.
-struct Corner {
+struct WrittenCorner {
   long long vertex = 0;
   long long normal = 0;
+};
+
+constexpr std::uint32_t no_normal = UINT32_MAX;
+
+/// Indices from 0.
+struct Corner {
+  std::uint32_t position = 0;
+  std::uint32_t normal = no_normal;
+
+  bool operator==(const Corner&) const = default;
+};
+
+/// Vertices with one position and one normal. The first one of each position has its number, others follow all positions.
+class ObjVertices {
+ public:
+  void add_position(KeptMemory& memory) { memory.push(first_normals_, std::uint32_t{unused}); }
+
+  /// The position must be there. Vertices that follow the positions are counted from `others`.
+  [[nodiscard]] std::uint32_t number_of(const Corner& corner) {
+    std::uint32_t& first = first_normals_[corner.position];
+    if (first == unused) first = corner.normal;
+    if (first == corner.normal) return corner.position;
+    const std::uint64_t key = (std::uint64_t{corner.position} << 32) | corner.normal;
+    const auto [found, is_new] = numbers_.try_emplace(key, static_cast<std::uint32_t>(more_.size()));
+    if (is_new) more_.push_back(corner);
+    return others + found->second;
+  }
+
+  /// The normal of a vertex that has a position's number.
+  [[nodiscard]] std::uint32_t normal_of(std::size_t position) const {
+    return first_normals_[position] == unused ? no_normal : first_normals_[position];
+  }
+  [[nodiscard]] const std::vector<Corner>& more() const { return more_; }
+
+  static constexpr std::uint32_t others = std::uint32_t{1} << 31;
+
+ private:
+  static constexpr std::uint32_t unused = UINT32_MAX - 1;
+  std::vector<std::uint32_t> first_normals_;
+  std::vector<Corner> more_;
+  std::unordered_map<std::uint64_t, std::uint32_t> numbers_;
 };
 
 class ObjReader {
@@ -98,14 +120,14 @@ class ObjReader {
     divide_late_polygons();
     mesh_.polygons = triangulator_.counts();
     add_materials(notices);
-    add_normals();
+    add_vertices();
     return std::move(mesh_);
   }
 
  private:
   void add_position() {
     memory_.push(mesh_.positions, vector_in_line());
-    memory_.push(at_positions_, CornerNormals{});
+    vertices_.add_position(memory_);
   }
 
   void add_normal() {
@@ -115,21 +137,32 @@ class ObjReader {
   }
 
   void add_face() {
-    polygon_.clear();
+    corners_.clear();
     for (std::string_view words = lines_.rest(), word = cut_word(words); !word.empty(); word = cut_word(words))
-      memory_.push(polygon_, add_corner(corner_in(word)));
-    drop_repeated_corners(polygon_);
-    if (polygon_.size() < 3) lines_.fail("a face needs at least 3 corners");
-    const bool known = std::ranges::all_of(polygon_, [&](std::uint32_t one) { return one < mesh_.positions.size(); });
-    if (known) return divide(mesh_.triangles.size());
-    late_.push_back({mesh_.triangles.size(), polygon_});
-    for (std::size_t i = 2; i < polygon_.size(); ++i)
-      memory_.push(mesh_.triangles, {polygon_[0], polygon_[i - 1], polygon_[i]});
+      memory_.push(corners_, corner_of(corner_in(word)));
+    drop_repeated_corners(corners_, &Corner::position);
+    if (corners_.size() < 3) lines_.fail("a face needs at least 3 corners");
+    const bool known = std::ranges::all_of(corners_, [&](const Corner& one) {
+      return one.position < mesh_.positions.size() && (one.normal == no_normal || one.normal < normals_.size());
+    });
+    if (known) return divide(corners_, mesh_.triangles.size());
+    late_.push_back({mesh_.triangles.size(), corners_});
+    for (std::size_t i = 2; i < corners_.size(); ++i) memory_.push(mesh_.triangles, {0, 0, 0});
   }
 
-  /// Puts the triangles of polygon_ at this place.
-  void divide(std::size_t place) {
-    for (const auto& triangle : triangulator_.triangles_of(polygon_, mesh_.positions, check_)) {
+  /// Puts the triangles of a polygon at this place.
+  void divide(const std::vector<Corner>& corners, std::size_t place) {
+    polygon_.clear();
+    outline_.clear();
+    for (Corner corner : corners) {
+      if (corner.normal != no_normal && !has_length(corner.normal)) corner.normal = no_normal;
+      polygon_.push_back(vertices_.number_of(corner));
+      outline_.push_back(mesh_.positions[corner.position]);
+    }
+    triangles_.clear();
+    triangulator_.divide(outline_, check_, triangles_);
+    for (auto& triangle : triangles_) {
+      for (std::uint32_t& corner : triangle) corner = polygon_[corner];
       if (place == mesh_.triangles.size())
         memory_.push(mesh_.triangles, triangle);
       else
@@ -138,22 +171,43 @@ class ObjReader {
     }
   }
 
-  /// Those with corners that came after them.
+  /// Those with positions or normals that came after them.
   void divide_late_polygons() {
-    for (auto& [place, corners] : late_) {
-      polygon_ = std::move(corners);
-      divide(place);
-    }
+    for (const auto& [place, corners] : late_) divide(corners, place);
   }
 
-  /// Normals of corners, where some vertex has one. A vertex without one has 0.
-  void add_normals() {
+  /// Whether the normal is there, and neither zero nor not finite.
+  [[nodiscard]] bool has_length(std::uint32_t normal) const {
+    return normal < normals_.size() && normals_[normal] != glm::dvec3{0.0};
+  }
+
+  /// Gives vertices their last numbers and, where some corner has a normal, their normals: 0 if they have none.
+  void add_vertices() {
+    const std::size_t positions = mesh_.positions.size();
+    const std::vector<Corner>& more = vertices_.more();
+    if (!more.empty()) {
+      memory_.reserve(mesh_.file_vertices, positions + more.size());
+      memory_.reserve(mesh_.positions, positions + more.size());
+      for (std::size_t i = 0; i < positions; ++i) mesh_.file_vertices.push_back(static_cast<std::uint32_t>(i));
+      for (const Corner& corner : more) {
+        mesh_.positions.push_back(glm::dvec3(mesh_.positions[corner.position]));
+        mesh_.file_vertices.push_back(corner.position);
+      }
+      for (auto& triangle : mesh_.triangles)
+        for (std::uint32_t& corner : triangle)
+          if (corner >= ObjVertices::others)
+            corner = static_cast<std::uint32_t>(positions + (corner - ObjVertices::others));
+    }
     if (!names_normals_) return;
+    const auto normal_of = [&](std::size_t vertex) {
+      const std::uint32_t normal = vertex < positions ? vertices_.normal_of(vertex) : more[vertex - positions].normal;
+      return normal == no_normal ? glm::dvec3{0.0} : normals_[normal];
+    };
     for (const auto& triangle : mesh_.triangles)
-      for (const std::uint32_t corner : triangle) mesh_.normals_made += at_positions_[corner].count == 0 ? 1 : 0;
+      for (const std::uint32_t corner : triangle) mesh_.normals_made += normal_of(corner) == glm::dvec3{0.0} ? 1 : 0;
     if (mesh_.normals_made == 3 * mesh_.triangles.size()) return;
-    memory_.reserve(mesh_.normals, at_positions_.size());
-    for (const CornerNormals& normals : at_positions_) mesh_.normals.push_back(normals.vector());
+    memory_.reserve(mesh_.normals, mesh_.positions.size());
+    for (std::size_t i = 0; i < mesh_.positions.size(); ++i) mesh_.normals.push_back(normal_of(i));
   }
 
   /// The material of the faces that follow. Faces before the first one have number 0, that of no name.
@@ -216,9 +270,9 @@ class ObjReader {
   }
 
   /// Reads 1, 1/2, 1//3 or 1/2/3: the vertex, its texture (ignored) and its normal.
-  [[nodiscard]] Corner corner_in(std::string_view word) const {
+  [[nodiscard]] WrittenCorner corner_in(std::string_view word) const {
     std::string_view parts = word;
-    Corner corner{.vertex = index_in(cut_until(parts, "/"), word)};
+    WrittenCorner corner{.vertex = index_in(cut_until(parts, "/"), word)};
     (void)index_in(cut_until(parts, "/"), word);
     corner.normal = index_in(parts, word);
     return corner;
@@ -246,24 +300,18 @@ class ObjReader {
     return static_cast<std::size_t>(index < 0 ? size + index : index - 1);
   }
 
-  std::uint32_t add_corner(const Corner& corner) {
-    const auto position = resolve(corner.vertex, mesh_.positions.size());
-    if (!position || *position > UINT32_MAX)  // a mesh can use so many
-      lines_.fail(out_of_range(corner.vertex, mesh_.positions.size()) + " so far");
+  [[nodiscard]] Corner corner_of(const WrittenCorner& written) {
+    const auto position = resolve(written.vertex, mesh_.positions.size());
+    if (!position || *position >= ObjVertices::others)  // a mesh can use so many
+      lines_.fail(out_of_range(written.vertex, mesh_.positions.size()) + " so far");
     if (*position >= std::max(mesh_.positions.size(), needed_)) {
       needed_ = *position + 1;
       line_of_needed_ = lines_.line();
     }
-    add_normal_of(corner, *position);
-    return static_cast<std::uint32_t>(*position);
-  }
-
-  /// Normals that are not there yet, or are zero or not finite, do not count, nor those of vertices that are not there yet.
-  void add_normal_of(const Corner& corner, std::size_t position) {
-    names_normals_ = names_normals_ || corner.normal != 0;
-    const auto normal = resolve(corner.normal, normals_.size());
-    if (!normal || *normal >= normals_.size() || position >= at_positions_.size()) return;
-    if (normals_[*normal] != glm::dvec3{0.0}) at_positions_[position].add(normals_[*normal]);
+    names_normals_ = names_normals_ || written.normal != 0;
+    const auto normal = resolve(written.normal, normals_.size());
+    const bool may_be = normal && *normal < ObjVertices::others;
+    return {static_cast<std::uint32_t>(*position), may_be ? static_cast<std::uint32_t>(*normal) : no_normal};
   }
 
   const std::string& path_;
@@ -272,12 +320,15 @@ class ObjReader {
   KeptMemory memory_;
   Mesh mesh_;
   std::vector<glm::dvec3> normals_;
-  std::vector<CornerNormals> at_positions_;
-  std::vector<std::uint32_t> polygon_;
+  ObjVertices vertices_;
+  std::vector<Corner> corners_;
+  std::vector<std::uint32_t> polygon_;  ///< vertices
+  std::vector<glm::dvec3> outline_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
   Triangulator triangulator_;
   StopCheck check_;
-  /// First triangle and corners of polygons before some of their vertices.
-  std::vector<std::pair<std::size_t, std::vector<std::uint32_t>>> late_;
+  /// First triangle and corners of polygons before some of their positions or normals.
+  std::vector<std::pair<std::size_t, std::vector<Corner>>> late_;
   std::size_t needed_ = 0;  ///< number of vertices without which a face has no corner
   std::size_t line_of_needed_ = 0;
   bool names_normals_ = false;  ///< some corner does

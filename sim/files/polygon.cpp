@@ -35,12 +35,6 @@ bool has_area(std::span<const glm::dvec3> corners) {
 
 }  // namespace
 
-void drop_repeated_corners(std::vector<std::uint32_t>& polygon) {
-  if (polygon.size() <= 3) return;
-  polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
-  while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
-}
-
 /// Fills in flat_. False if the polygon has no area.
 bool Triangulator::project(std::span<const glm::dvec3> corners) {
   double extent = 0;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -13,7 +15,14 @@
 namespace detp::sim {
 
 /// Removes corners of a polygon of more than three that follow themselves, as where an exporter closes the outline.
-void drop_repeated_corners(std::vector<std::uint32_t>& polygon);
+template <class Corner, class Of = std::identity>
+void drop_repeated_corners(std::vector<Corner>& polygon, const Of& position = {}) {
+  if (polygon.size() <= 3) return;
+  const auto at = [&](const Corner& corner) { return std::invoke(position, corner); };
+  const auto same = [&](const Corner& a, const Corner& b) { return at(a) == at(b); };
+  polygon.erase(std::unique(polygon.begin(), polygon.end(), same), polygon.end());
+  while (polygon.size() > 1 && same(polygon.front(), polygon.back())) polygon.pop_back();
+}
 
 /// Divides polygons into triangles. Keeps its memory from one to the next.
 class Triangulator {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -50,10 +51,14 @@ struct Box {
   [[nodiscard]] double longest_side() const { return std::max({size().x, size().y, size().z}); }
 };
 
+/// For a sample that is at no vertex of a file.
+inline constexpr std::uint32_t no_vertex = UINT32_MAX;
+
 /// A point of a surface where irradiance is wanted.
 struct Sample {
   glm::dvec3 position{0.0};
   glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit length
+  std::uint32_t vertex = no_vertex;  ///< of the file, from 0
 };
 
 }  // namespace detp::sim

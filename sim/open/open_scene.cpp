@@ -13,7 +13,7 @@
 #include "detp/sim/photons/placed_lights.hpp"
 #include "detp/sim/scene/built_in/built_in.hpp"
 #include "detp/sim/scene/families/families.hpp"
-#include "resample.hpp"
+#include "detp/sim/scene/resample.hpp"
 
 namespace detp::sim {
 namespace {
@@ -77,7 +77,7 @@ Box box_of(const Scene& scene) {
 
 /// Adds the samples to a scene that already has its mesh and name.
 void add_samples(Scene& scene, const SceneRequest& request, const std::stop_token& stop) {
-  scene.samples = samples_at_vertices(scene.mesh, scene.notices, stop);
+  scene.samples = samples_at_vertices(scene.mesh, request.crease, scene.notices, stop);
   if (scene.samples.empty())
     throw FileError(request.name, "no vertex has a normal; irradiance needs triangles with an area");
   const std::size_t wanted = request.samples.value_or(scene.samples.size());

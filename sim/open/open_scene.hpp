@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "detp/sim/scene/scene.hpp"
+#include "detp/sim/scene/vertices.hpp"
 
 namespace detp::sim {
 
@@ -14,6 +15,7 @@ struct SceneRequest {
   std::optional<std::size_t> samples;  ///< number of samples; default: the number of vertices (@uniform: 100 000)
   std::uint64_t seed = 1;
   std::vector<LightKind> lights = {};  ///< none: the scene's own, or if it has none, an area light
+  double crease = default_crease;      ///< degrees, for files without normals (vertices.hpp)
   std::optional<Up> up = {};           ///< none: Y in built-in scenes, found by up_of in files
 };
 

@@ -55,8 +55,10 @@ double PhotonWalk::distance_out(const PhotonStart& from) const {
 /// How far a piece goes on beyond the surface where it ends.
 double PhotonWalk::overshoot(const glm::dvec3& end, const glm::dvec3& direction, std::uint32_t triangle) const {
   if (overshoot_ <= gap_) return gap_;
-  const auto next = caster_->first_intersection(end, direction, triangle);
-  return std::max(gap_, std::min(overshoot_, next ? next->distance + gap_ : distance_out({end, direction})));
+  const auto next = caster_->first_intersection(end, direction, triangle, overshoot_ + gap_);
+  if (!next) return std::max(gap_, std::min(overshoot_, distance_out({end, direction})));
+  if (overshoot_ == unbounded) return next->distance + gap_;
+  return std::min(overshoot_, std::max(next->distance - gap_, 0.5 * next->distance));
 }
 
 Ray PhotonWalk::piece(const PhotonStart& from, double distance, double beyond, double power) const {

@@ -116,7 +116,8 @@ RayCaster::~RayCaster() = default;
 
 std::optional<RayCaster::Intersection> RayCaster::first_intersection(const glm::dvec3& origin,
                                                                      const glm::dvec3& direction,
-                                                                     std::optional<std::uint32_t> from) const {
+                                                                     std::optional<std::uint32_t> from,
+                                                                     double within) const {
   const double skipped = entry(origin, direction);
   if (skipped < 0) return std::nullopt;
   Query query{.context = {},
@@ -127,11 +128,13 @@ std::optional<RayCaster::Intersection> RayCaster::first_intersection(const glm::
   rtcInitIntersectContext(&query.context);
   const glm::vec3 start(origin + skipped * direction);
   const glm::vec3 heading(direction);
+  const float farthest = static_cast<float>(within - skipped) + distance_slack;
+  if (farthest < 0) return std::nullopt;
   RTCRayHit ray{};
-  ray.ray = {start.x, start.y, start.z, 0, heading.x, heading.y, heading.z, 0, INFINITY, 0xFFFFFFFFU, 0, 0};
+  ray.ray = {start.x, start.y, start.z, 0, heading.x, heading.y, heading.z, 0, farthest, 0xFFFFFFFFU, 0, 0};
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(embree_->scene.get(), &query.context, &ray);
-  if (query.nearest == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  if (query.nearest == RTC_INVALID_GEOMETRY_ID || query.distance > within) return std::nullopt;
   return Intersection{query.distance, embree_->distinct.facets[query.nearest].normal,
                       embree_->distinct.triangles[query.nearest]};
 }

@@ -35,11 +35,12 @@ class RayCaster {
     std::uint32_t triangle;
   };
 
-  /// The first triangle that the ray meets, except triangle `from`, where it starts; nullopt if there is none. Of
+  /// The first triangle that the ray meets within a distance, except triangle `from`, where it starts; nullopt if there is none. Of
   /// triangles at the same distance, returns the one with the lowest number. Origin and unit direction are in the
   /// caster's own coordinates.
   [[nodiscard]] std::optional<Intersection> first_intersection(const glm::dvec3& origin, const glm::dvec3& direction,
-                                                               std::optional<std::uint32_t> from = std::nullopt) const;
+                                                               std::optional<std::uint32_t> from = std::nullopt,
+                                                               double within = unbounded) const;
 
  private:
   struct Embree;

@@ -9,7 +9,7 @@
 #include "detp/sim/geometry/geometry.hpp"
 #include "material.hpp"
 
-/// Triangle meshes, and the samples at their vertices.
+/// Triangle meshes.
 namespace detp::sim {
 
 /// How the faces of a file were divided into triangles.
@@ -26,6 +26,8 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into positions, all in range
   Materials materials = {};
   PolygonCounts polygons = {};  ///< of the file
+  std::vector<std::uint32_t> file_vertices =
+      {};  ///< the number in the file, from 0, of each position; empty: its place
   std::uint64_t normals_made =
       0;  ///< corners whose normal the file lacks or has as zero, NaN or infinite, if it has others
 };
@@ -33,16 +35,8 @@ struct Mesh {
 /// Messages for the user that are not errors: "12 unreferenced vertices dropped".
 using Notices = std::vector<std::string>;
 
-/// One sample at each vertex that a triangle uses, in vertex order.
-///
-/// The normals are those of the mesh; where it has none or a zero one, the area-weighted mean normal of the triangles
-/// around the vertex. Unreferenced vertices are dropped. So are vertices without a normal: all triangles around them have no
-/// area. Each kind of drop adds one notice with its count. Throws Stopped if a stop was requested.
-[[nodiscard]] std::vector<Sample> samples_at_vertices(const Mesh& mesh, Notices& notices,
-                                                      const std::stop_token& stop = {});
-
 /// Mean length of the mesh's edges, an estimate of the distance between neighbouring samples at vertices. An edge of
-/// several triangles counts once, an edge of length 0 not at all. Returns 0 if no edge counts. Throws Stopped if a stop
+/// several triangles, between the same two positions, counts once, an edge of length 0 not at all. Returns 0 if no edge counts. Throws Stopped if a stop
 /// was requested.
 [[nodiscard]] double mean_edge_length(const Mesh& mesh, const std::stop_token& stop = {});
 

@@ -13,12 +13,13 @@
 #include "detp/sim/lists/simd/disc_tree.hpp"
 #include "detp/sim/lists/sphere_nodes.hpp"
 #include "detp/sim/open/open_scene.hpp"
-#include "detp/sim/open/resample.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/photon_source.hpp"
 #include "detp/sim/photons/placed_lights.hpp"
 #include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/resample.hpp"
+#include "detp/sim/scene/vertices.hpp"
 #include "detp/sim/search/index.hpp"
 #include "detp/sim/technique/registry.hpp"
 #include "support/scratch_file.hpp"
@@ -121,7 +122,12 @@ TEST_SUITE("identity") {
                  25 * triangles});
     check_phase({"up", [&](const auto& stop) { use(up_of(mesh, tree().box, stop)); }, triangles});
     Notices notices;
-    check_phase({"vertices", [&](const auto& stop) { use(samples_at_vertices(mesh, notices, stop)); }, triangles});
+    check_phase({"vertices",
+                 [&](const auto& stop) {
+                   Mesh own = mesh;
+                   use(samples_at_vertices(own, default_crease, notices, stop));
+                 },
+                 triangles});
   }
 
   TEST_CASE("the work between two checks is bounded while discs are sorted, and a stop request ends it") {

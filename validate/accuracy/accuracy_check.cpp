@@ -59,7 +59,7 @@ struct TimedEstimate {
 
 TimedEstimate timed_estimate(ReplicateMaker& maker, const sim::Scene& scene, const JudgedSamples& judged,
                              const AccuracyPoint& point, std::uint64_t seed) {
-  maker.decide_overshoot(point.radius);
+  if (point.radius > 0) maker.decide_overshoot();
   sim::Stopwatch watch;
   TimedEstimate run{.paths = maker.trace(whole_rays(point), seed, point.radius), .irradiance = {}};
   run.trace_seconds = maker.caster_seconds() + watch.lap();

@@ -127,7 +127,7 @@ class PilotMaker {
     report("pilot: tracing");
     double photons = 0;
     double seconds = 0;
-    maker_.decide_overshoot(pilot_.sample_distance);
+    maker_.decide_overshoot();
     for (std::size_t run = 0; run < runs; ++run) {
       sim::Stopwatch watch;
       sim::TracedPaths traced = maker_.trace(rays_of_run_, seed(run), pilot_.sample_distance);

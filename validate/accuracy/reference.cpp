@@ -12,10 +12,10 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/estimate/estimate.hpp"
-#include "detp/sim/open/resample.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/photon_walk.hpp"
 #include "detp/sim/reference/backward_paths.hpp"
+#include "detp/sim/scene/resample.hpp"
 
 namespace detp::validate {
 namespace {

@@ -35,13 +35,11 @@ double ReplicateMaker::surface_seconds(sim::Estimator estimator) const {
 
 bool ReplicateMaker::goes_on(double radius) {
   if (radius == 0) return false;
-  for (const auto& [known, on] : known_)
-    if (known == radius) return on;
-  const auto discs = discs_at(scene_.samples, radius);
-  const sim::Finding shadow = sim::self_shadow(scene_, caster_, discs, front_facing_, 1, stop_);
-  const bool on = sim::EffectSelection{}.is_on(sim::concave_surfaces, shadow.value, shadow.standard_error);
-  known_.emplace_back(radius, on);
-  return on;
+  if (!goes_on_) {
+    const sim::Finding shadow = sim::self_shadow(scene_, caster_, front_facing_, stop_);
+    goes_on_ = sim::EffectSelection{}.is_on(sim::concave_surfaces, shadow.value, shadow.standard_error);
+  }
+  return *goes_on_;
 }
 
 sim::TracedPaths ReplicateMaker::trace(std::size_t rays, std::uint64_t seed, double radius) {

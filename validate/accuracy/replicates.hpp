@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -34,8 +35,8 @@ class ReplicateMaker {
   /// `front_facing`: light that arrives from behind does not count.
   ReplicateMaker(sim::Scene& scene, bool front_facing, int threads, std::stop_token stop = {});
 
-  /// Decides whether paths go on for discs of this radius (trace), so that tracing does not take the time for it.
-  void decide_overshoot(double radius) { static_cast<void>(goes_on(radius)); }
+  /// Decides whether paths go on beyond surfaces (trace), so that tracing does not take the time for it.
+  void decide_overshoot() { static_cast<void>(goes_on(1)); }
 
   /// Seconds that building took: of the mesh's ray caster, and of the surfaces of an estimator that needs the mesh (0 before its
   /// first estimate).
@@ -67,7 +68,7 @@ class ReplicateMaker {
   };
   mutable Surfaces area_corrected_;
   mutable Surfaces triangle_hits_;
-  std::vector<std::pair<double, bool>> known_;  ///< radii, and whether their paths go on
+  std::optional<bool> goes_on_;  ///< paths go on beyond surfaces
 };
 
 /// The rays of the first photons. Each photon still has the power that it has among all.

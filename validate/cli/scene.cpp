@@ -29,7 +29,11 @@ struct SceneOptions {
 
 void write_mesh(const std::string& path, const validate::JobRequest& request, const std::stop_token& stop) {
   if (!request.scene) throw std::invalid_argument("--write-mesh takes a scene with triangles");
-  const sim::Scene scene = sim::open_scene({*request.scene, std::nullopt, request.seed}, stop);
+  const sim::Scene scene = sim::open_scene({.name = *request.scene,
+                                            .samples = {},
+                                            .seed = request.seed,
+                                            .crease = request.crease.value_or(sim::default_crease)},
+                                           stop);
   if (scene.mesh.triangles.empty())
     throw std::invalid_argument(fmt::format("{} has no triangles to write", shown_path(scene.name)));
   sim::write_ply(path, scene.mesh, stop);
@@ -102,7 +106,7 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common, const
   try {
     const std::size_t written = (options.disc_file ? job.discs.size() : 0) + (options.ray_file ? job.rays.size() : 0);
     progress.show({"writing", 0.5, 1, 8 * static_cast<double>(written)});
-    if (options.disc_file) sim::write_discs(*options.disc_file, job.discs, stop);
+    if (options.disc_file) sim::write_discs(*options.disc_file, job.discs, stop, job.vertices);
     if (options.ray_file) sim::write_rays(*options.ray_file, job.paths(), stop);
   } catch (const sim::Stopped& stopped) {
     note(common, fmt::format("{}; the file is not kept", stopped.what()));

@@ -56,6 +56,7 @@ struct JobRequest {
   std::optional<sim::Field> field;
   sim::FieldShares shares = {1.0 / 3, 1.0 / 3, 1.0 / 3};  ///< of a mixed field
   std::vector<sim::LightKind> lights;  ///< default: the scene's own; in a mesh file without lights an area light
+  std::optional<double> crease;        ///< degrees, of a scene: sim::SceneRequest::crease
   std::optional<sim::Up> up;           ///< default: y in built-in scenes, found from the shape in mesh files
   bool front_facing = false;
   /// photon paths go on to the second surface that they meet, as in the paper (§2.1)
@@ -105,13 +106,14 @@ struct Job {
   std::vector<sim::Disc> discs;                         ///< if they are stored: every k-th
   std::unique_ptr<const sim::DiscSource> stored_discs;  ///< all discs; null if they are in memory
   sim::DiscSummary stored_summary = {};                 ///< of all
-  std::vector<sim::Ray> rays;                           ///< all rays; empty if they are a stream; see workload_only
-  std::vector<std::uint64_t> photons;                   ///< numbers of the rays' photons, as in sim::PathRays
-  std::vector<double> landings;                         ///< where the photons met a surface, as in sim::PathRays
-  std::vector<std::uint32_t> triangles_met = {};        ///< as sim::PathRays::triangles
-  std::uint64_t photon_count = 0;                       ///< photons emitted; 0: one for each ray
-  std::vector<std::uint32_t> file_order;                ///< as sim::RayFile::order
-  std::unique_ptr<const sim::RaySource> stream;  ///< makes ray number i for any i; null if all rays are in memory
+  std::vector<std::uint32_t> vertices;  ///< of the scene's file, one for each disc; empty: discs are not at vertices
+  std::vector<sim::Ray> rays;           ///< all rays; empty if they are a stream; see workload_only
+  std::vector<std::uint64_t> photons;   ///< numbers of the rays' photons, as in sim::PathRays
+  std::vector<double> landings;         ///< where the photons met a surface, as in sim::PathRays
+  std::vector<std::uint32_t> triangles_met = {};  ///< as sim::PathRays::triangles
+  std::uint64_t photon_count = 0;                 ///< photons emitted; 0: one for each ray
+  std::vector<std::uint32_t> file_order;          ///< as sim::RayFile::order
+  std::unique_ptr<const sim::RaySource> stream;   ///< makes ray number i for any i; null if all rays are in memory
   sim::Field field = sim::Field::isotropic;
   sim::FieldShares shares = {};  ///< of a mixed field
   std::uint64_t seed = 1;

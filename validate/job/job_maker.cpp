@@ -100,6 +100,7 @@ class JobMaker {
 
  private:
   void from_numbers() {
+    if (request_.crease) throw std::invalid_argument("--crease is for a scene");
     const Workload workload = workload_of_numbers(request_);
     job_.numbers = workload;
     job_.name = name_of_numbers(workload);
@@ -109,6 +110,7 @@ class JobMaker {
   }
 
   void from_scene_and_files() {
+    if (request_.crease && !request_.scene) throw std::invalid_argument("--crease is for a scene");
     if (request_.scene) open_scene();
     if (request_.disc_file) {
       if (request_.samples)
@@ -162,7 +164,9 @@ class JobMaker {
     std::optional<std::size_t> samples;
     if (request_.samples)
       samples = count_in_memory("samples", *request_.samples, sizeof(sim::Sample) + sizeof(sim::Disc));
-    scene_ = sim::open_scene({*request_.scene, samples, request_.seed, request_.lights, request_.up}, stop_);
+    scene_ = sim::open_scene({*request_.scene, samples, request_.seed, request_.lights,
+                              request_.crease.value_or(sim::default_crease), request_.up},
+                             stop_);
     job_.name = scene_->name;
     job_.notices = scene_->notices;
     job_.lights = scene_->lights;
@@ -176,6 +180,8 @@ class JobMaker {
     const double radius = request_.disc_radius ? absolute(*request_.disc_radius, side)
                                                : default_radius(*scene_, side, job_.surface.edge_length);
     job_.discs = discs_at(scene_->samples, radius, stop_);
+    if (!scene_->mesh.triangles.empty() && !request_.disc_file)
+      for (const sim::Sample& sample : scene_->samples) job_.vertices.push_back(sample.vertex);
   }
 
   [[nodiscard]] bool are_shared(double rays) const {
@@ -271,8 +277,7 @@ class JobMaker {
       scene_->overshoot = sim::unbounded;
       return *scene_;
     }
-    const sim::Finding shadow =
-        sim::self_shadow(*scene_, caster_, job_.discs, request_.front_facing, request_.seed, stop_);
+    const sim::Finding shadow = sim::self_shadow(*scene_, caster_, request_.front_facing, stop_);
     if (request_.effects.is_on(sim::concave_surfaces, shadow.value, shadow.standard_error))
       scene_->overshoot = job_.stored_discs ? sim::overshoot_over_radius * job_.stored_summary.radii.largest
                                             : sim::overshoot_for(job_.discs);

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "detp/sim/effects/concave_surfaces.hpp"
 #include "detp/sim/effects/observe.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
@@ -120,10 +119,6 @@ TEST_SUITE("bad input") {
           const sim::Problem problem = sim::make_problem(one.rays, one.discs, front_facing);
           check_finite(sim::observe(problem, {}, sim::EffectSelection(effects)));
         }
-      const sim::Finding concave = sim::concavity(one.discs);
-      CHECK(concave.value >= 0);
-      CHECK(concave.value <= 1);
-      CHECK(std::isfinite(concave.standard_error));
     }
   }
 

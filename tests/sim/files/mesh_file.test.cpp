@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "detp/sim/files/file_error.hpp"
+#include "detp/sim/scene/vertices.hpp"
 #include "support/scratch_file.hpp"
 
 using namespace detp;
@@ -127,13 +128,22 @@ TEST_SUITE("known answer") {
     CHECK(read(folder.file("m.obj", text + face)).triangles.size() == 298);
   }
 
-  TEST_CASE("an OBJ vertex gets the sum of its corners' unit normals, or the first if they cancel") {
+  TEST_CASE("an OBJ position with several normals becomes a vertex for each of them") {
     const ScratchFolder folder;
     const std::string positions = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 5\nvn 0 0 -1\nvn 7 0 0\n";
-    const Mesh summed = read(folder.file("summed.obj", positions + "f 1//1 2//1 3//1\nf 1//3 3//1 2//1\n"));
-    CHECK(summed.normals[0] == glm::dvec3{1, 0, 1});
-    const Mesh cancelled = read(folder.file("cancelled.obj", positions + "f 1//1 2//1 3//1\nf 1//2 3//2 2//2\n"));
-    CHECK(cancelled.normals[0] == glm::dvec3{0, 0, 1});
+    for (const std::string& text : {positions + "f 1//1 2//1 3//1\nf 1//3 3//1 2//1\nf 3//1 1//3 2//2\n",
+                                    "f 1//1 2//1 3//1\nf 1//3 3//1 2//1\nf 3//1 1//3 2//2\n" + positions}) {
+      CAPTURE(text);
+      const Mesh mesh = read(folder.file("split.obj", text));
+      REQUIRE(mesh.positions.size() == 5);
+      CHECK(mesh.triangles[1] == std::array<std::uint32_t, 3>{3, 2, 1});
+      CHECK(mesh.triangles[2] == std::array<std::uint32_t, 3>{2, 3, 4});
+      CHECK(mesh.file_vertices == std::vector<std::uint32_t>{0, 1, 2, 0, 1});
+      CHECK(mesh.normals[0] == glm::dvec3{0, 0, 1});
+      CHECK(mesh.normals[3] == glm::dvec3{1, 0, 0});
+      CHECK(mesh.normals[4] == glm::dvec3{0, 0, -1});
+      CHECK(mesh.positions[4] == glm::dvec3{1, 0, 0});
+    }
   }
 
   TEST_CASE("normals that are missing, zero or not finite become those of the faces, with a notice") {
@@ -144,11 +154,11 @@ TEST_SUITE("known answer") {
           "f 1//1 2//1 3\n", "f 1//1 2//1 3//7\n", "f 1//1 2//1 3//-4\n", "vn -nan(ind) 0 1\nf 1//1 2//1 3//2\n"}) {
       CAPTURE(bad);
       Notices notices;
-      const Mesh mesh = read_mesh(folder.file("m.obj", positions + bad), notices);
+      Mesh mesh = read_mesh(folder.file("m.obj", positions + bad), notices);
       CHECK(mesh.normals_made == 1);
       REQUIRE(notices.size() == 1);
       CHECK(notices[0].find("with that of the faces around: 1") != std::string::npos);
-      const std::vector<Sample> samples = samples_at_vertices(mesh, notices);
+      const std::vector<Sample> samples = samples_at_vertices(mesh, default_crease, notices);
       REQUIRE(samples.size() == 3);
       CHECK(samples[0].normal.x == doctest::Approx(std::sqrt(0.5)));
       CHECK(samples[2].normal == glm::dvec3{0, 0, 1});
@@ -163,9 +173,9 @@ TEST_SUITE("known answer") {
     for (const char* corner : {"0 0 0\n", "1 0 0\n", "0 1 0\n"})
       ply.replace(ply.find(corner), 6, std::string(corner, 5) + " 0 0 1\n");
     ply.replace(ply.find("1 1 0\n"), 6, "1 1 0 nan 0 0\n");
-    const Mesh bad = read_mesh(folder.file("m.ply", ply), notices);
+    Mesh bad = read_mesh(folder.file("m.ply", ply), notices);
     CHECK(bad.normals_made == 2);  // corners of two triangles, or of one
-    CHECK(samples_at_vertices(bad, notices).size() == 4);
+    CHECK(samples_at_vertices(bad, default_crease, notices).size() == 4);
   }
 
   TEST_CASE("polygons are divided alike in OBJ and PLY, also where faces come before vertices") {
@@ -261,7 +271,8 @@ TEST_SUITE("known answer") {
       CAPTURE(name);
       const Mesh mesh = read(folder + "/" + name);
       CHECK(mesh.triangles.size() == triangles);
-      CHECK(mesh.positions.size() == vertices);
+      CHECK((mesh.file_vertices.empty() ? mesh.positions.size()
+                                        : std::size_t{1} + *std::ranges::max_element(mesh.file_vertices)) == vertices);
     }
   }
 }

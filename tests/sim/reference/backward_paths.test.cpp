@@ -7,9 +7,9 @@
 
 #include "detp/sim/estimate/estimate.hpp"
 #include "detp/sim/open/open_scene.hpp"
-#include "detp/sim/open/resample.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/scene/built_in/built_in.hpp"
+#include "detp/sim/scene/resample.hpp"
 
 namespace detp::sim {
 namespace {

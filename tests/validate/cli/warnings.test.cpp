@@ -28,8 +28,8 @@ TEST_SUITE("end to end") {
       const Json warnings = finished.json().at("warnings");
       REQUIRE_FALSE(warnings.empty());
       for (const std::string one : warnings) CHECK(finished.err.find(one) != std::string::npos);
-      CHECK(warnings.dump().find("\"3 of 202 discs lie far from the others") != std::string::npos);
-      CHECK(finished.err.find("warning: 3 of 202 discs lie far from the others") != std::string::npos);
+      CHECK(warnings.dump().find("\"3 of 219 discs lie far from the others") != std::string::npos);
+      CHECK(finished.err.find("warning: 3 of 219 discs lie far from the others") != std::string::npos);
       CHECK(detp(line + words("--quiet")).err.empty());
     }
   }

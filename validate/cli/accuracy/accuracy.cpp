@@ -34,6 +34,7 @@ struct AccuracyOptions {
   std::optional<double> samples;
   std::vector<std::string> estimators;
   std::optional<std::string> lights;
+  std::optional<std::string> crease;
   std::optional<std::string> up;
   std::optional<std::string> reference;
   std::optional<std::string> seeds;
@@ -85,6 +86,7 @@ sim::Scene scene_of(const AccuracyOptions& options, std::uint64_t seed, const st
   }
   if (options.lights) request.lights = parse_lights(*options.lights);
   if (options.up) request.up = parse_up(*options.up);
+  if (options.crease) request.crease = parse_crease(*options.crease);
   return sim::open_scene(request, stop);
 }
 
@@ -93,6 +95,7 @@ std::string repeated_options(const AccuracyOptions& options) {
   if (options.samples) text += fmt::format(" --samples {:.9g}", *options.samples);
   if (options.lights) text += " --light " + *options.lights;
   if (options.up) text += " --up " + *options.up;
+  if (options.crease) text += " --crease " + *options.crease;
   if (options.front_facing) text += " --front-facing";
   return text;
 }
@@ -336,6 +339,7 @@ Command accuracy_command(CLI::App& program) {
   add_count(*app, "--samples", options->samples, "how many samples; default: the scene's vertices");
   app->add_option("--light", options->lights, "lights placed in the scene, as of run");
   app->add_option("--up", options->up, "which way is up, as of run");
+  app->add_option("--crease", options->crease, "angle from which edges are sharp, as of run");
   app->add_option("--reference", options->reference,
                   "the file of the irradiance to compare with; it is made if there is none (up to a minute); "
                   "default: the pilot itself");

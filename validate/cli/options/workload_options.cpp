@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/open/open_scene.hpp"
 
 namespace detp::cli {
 namespace {
@@ -100,6 +101,12 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
   lists.add(
       command, "--up", Values::one, words, [this](const std::string& text) { request_.up = parse_up(text); },
       "which way is up, for lights that are placed: x, y, z, -x, -y, -z, auto; default: auto (by the mesh's shape)");
+  lists.add(
+      command, "--crease", Values::one, numbers,
+      [this](const std::string& text) { request_.crease = parse_crease(text); },
+      fmt::format("angle between faces, in degrees, from which their edge is sharp and a vertex has a sample for each "
+                  "face, in meshes without normals; default: {}",
+                  sim::default_crease));
   command.add_flag("--front-facing", request_.front_facing, "count only rays that arrive at a disc's front");
   command.add_flag("--second-intersection", request_.second_intersection,
                    "photon paths go on to the second surface that they meet, as in the paper; default: as far as the "
@@ -111,6 +118,13 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
           "deviations from uniform lines and samples that are taken into account: auto (where the evidence calls "
           "for them), none, all, or a list of {}; default: auto",
           switched_effects()));
+}
+
+double parse_crease(const std::string& text) {
+  const double crease = parse_number("--crease", text);
+  if (!(crease >= 0 && crease <= 180))
+    throw std::invalid_argument(fmt::format("--crease must be from 0 to 180 degrees (got {})", text));
+  return crease;
 }
 
 std::vector<sim::LightKind> parse_lights(std::string_view text) {

@@ -40,6 +40,7 @@ void require_numbers(const validate::JobRequest& request);
 [[nodiscard]] std::pair<sim::Field, sim::FieldShares> parse_field(const std::string& text);
 
 /// "area,spot". Throws std::invalid_argument for an unknown kind.
+[[nodiscard]] double parse_crease(const std::string& text);
 [[nodiscard]] std::vector<sim::LightKind> parse_lights(std::string_view text);
 
 /// "-z"; nothing for "auto". Throws std::invalid_argument for other text.

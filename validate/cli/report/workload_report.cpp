@@ -104,6 +104,7 @@ Json origin_json(const validate::JobRequest& request, const std::string& scene, 
     json["ray_file"] = *request.ray_file;
   else
     json["field"] = name(field);
+  if (request.crease) json["crease"] = *request.crease;
   json["front_facing"] = request.front_facing;
   if (request.second_intersection) json["second_intersection"] = true;
   json["seed"] = request.seed;

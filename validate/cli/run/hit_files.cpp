@@ -33,11 +33,13 @@ void write_pairs(const std::string& path, const TimedRun& run, const std::vector
   file.commit();
 }
 
-void write_per_disc(const std::string& path, const TimedRun& run, const std::stop_token& stop) {
+void write_per_disc(const std::string& path, const TimedRun& run, const std::vector<std::uint32_t>& vertices,
+                    const std::stop_token& stop) {
   const bool errors = run.results ? run.results->errors() : !run.outcome.standard_error.empty();
   sim::WritingCheck check(path, disc_count(run), "discs", stop);
   sim::OutputFile file(path, stop);
-  file.write(errors ? "disc,hits,irradiance,standard_error,upper_bound\n" : "disc,hits,irradiance\n");
+  file.write(fmt::format("disc,hits,irradiance{}{}\n", errors ? ",standard_error,upper_bound" : "",
+                         vertices.empty() ? "" : ",vertex"));
   std::uint64_t disc = 0;
   for_each_disc(run, [&](const sim::DiscResult& found) {
     check.next();
@@ -45,7 +47,10 @@ void write_per_disc(const std::string& path, const TimedRun& run, const std::sto
                               : std::isfinite(found.standard_error) ? fmt::format(",{},", found.standard_error)
                               : std::isfinite(found.upper_bound)    ? fmt::format(",,{}", found.upper_bound)
                                                                     : ",,";  // no surface near the sample
-    file.write(fmt::format("{},{},{}{}\n", disc++, found.hits, found.irradiance, error));
+    const std::string vertex = vertices.empty()                   ? ""
+                               : vertices[disc] == sim::no_vertex ? ",-1"
+                                                                  : fmt::format(",{}", vertices[disc]);
+    file.write(fmt::format("{},{},{}{}{}\n", disc++, found.hits, found.irradiance, error, vertex));
   });
   file.commit();
 }

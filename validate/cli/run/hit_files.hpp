@@ -15,6 +15,7 @@ void write_pairs(const std::string& path, const TimedRun& run, const std::vector
                  const std::stop_token& stop);
 
 /// Hits and irradiance of each disc; with standard errors and bounds if they were asked for.
-void write_per_disc(const std::string& path, const TimedRun& run, const std::stop_token& stop);
+void write_per_disc(const std::string& path, const TimedRun& run, const std::vector<std::uint32_t>& vertices,
+                    const std::stop_token& stop);
 
 }  // namespace detp::cli

@@ -158,7 +158,7 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const validat
   if (outcome.stopped) return outcome.progress;
   const bool in_time = !answer.until || answer.until->result.reason != validate::StopReason::time;
   try {
-    if (options.per_disc) write_per_disc(*options.per_disc, answer.run, stop);
+    if (options.per_disc) write_per_disc(*options.per_disc, answer.run, job.vertices, stop);
     if (options.pairs) write_pairs(*options.pairs, answer.run, job.file_order, stop);
   } catch (const sim::Stopped& stopped) {
     note(common, fmt::format("{}; the file is not kept", stopped.what()));
@@ -399,7 +399,8 @@ Command run_command(CLI::App& program) {
                 "also print effects, and the counts with their predictions; default: a short answer");
   add_number(*app, "--repeat", options->repeat,
              "time that many further runs, which do not count; the median is shown; default: 0");
-  app->add_option("--per-disc", options->per_disc, "write disc,hits,irradiance as CSV, in input order");
+  app->add_option("--per-disc", options->per_disc,
+                  "write disc,hits,irradiance as CSV, in input order, and the vertex in the mesh (-1: none)");
   app->add_flag("--standard-error", options->standard_error,
                 "add to --per-disc the standard error of each irradiance, for independent photons; where too few "
                 "photons hit a disc (fewer than 10), an upper bound (95 %) of the irradiance instead");

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "detp/sim/scene/mesh.hpp"
+#include "mesh.hpp"
 
 namespace detp::sim {
 
