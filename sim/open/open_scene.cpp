@@ -12,6 +12,7 @@
 #include "detp/sim/photons/emitter.hpp"
 #include "detp/sim/photons/placed_lights.hpp"
 #include "detp/sim/scene/built_in/built_in.hpp"
+#include "detp/sim/scene/coincident.hpp"
 #include "detp/sim/scene/families/families.hpp"
 #include "detp/sim/scene/resample.hpp"
 
@@ -131,6 +132,8 @@ Scene mesh_scene(const SceneRequest& request, const std::stop_token& stop) {
   Scene scene;
   scene.name = request.name;
   scene.mesh = read_mesh(request.name, scene.notices, stop);
+  note_unreferenced(scene.mesh, scene.notices);
+  join_coincident(scene.mesh, scene.notices, stop);  // in built-in scenes, no light reaches faces in the same place
   add_samples(scene, request, stop);
   scene.box = box_of(scene);
   if (scene.box.low == scene.box.high) return scene;

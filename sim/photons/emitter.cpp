@@ -91,24 +91,27 @@ Emitter emitter(const EnvironmentLight&, const Scene& scene) {
   };
 }
 
-/// A triangle that emits.
+/// A side of a triangle that emits: the cross product of the edges points away from it.
 struct EmittingTriangle {
   std::uint32_t number;
   glm::dvec3 corner, first, second;  ///< a corner, and the edges from it
-  double up_to;                      ///< sum of the fluxes of all emitting triangles up to and including this one
+  double up_to;                      ///< sum of the fluxes of all emitting sides up to and including this one
 };
 
 std::vector<EmittingTriangle> emitting_triangles(const Mesh& mesh) {
   std::vector<EmittingTriangle> all;
   double sum = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const double emitted = mesh.materials.of(i).emitted;
-    if (!(emitted > 0)) continue;
-    const auto& [a, b, c] = mesh.triangles[i];
-    const glm::dvec3 first = mesh.positions[b] - mesh.positions[a];
-    const glm::dvec3 second = mesh.positions[c] - mesh.positions[a];
-    const double flux = 0.5 * std::numbers::pi * emitted * glm::length(glm::cross(first, second));
-    if (flux > 0) all.push_back({static_cast<std::uint32_t>(i), mesh.positions[a], first, second, sum += flux});
+    for (const bool front : {true, false}) {
+      const double emitted = mesh.materials.emitted(i, front);
+      if (!(emitted > 0)) continue;
+      auto [a, b, c] = mesh.triangles[i];
+      if (!front) std::swap(b, c);
+      const glm::dvec3 first = mesh.positions[b] - mesh.positions[a];
+      const glm::dvec3 second = mesh.positions[c] - mesh.positions[a];
+      const double flux = 0.5 * std::numbers::pi * emitted * glm::length(glm::cross(first, second));
+      if (flux > 0) all.push_back({static_cast<std::uint32_t>(i), mesh.positions[a], first, second, sum += flux});
+    }
   }
   return all;
 }

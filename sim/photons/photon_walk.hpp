@@ -50,8 +50,9 @@ class PhotonWalk {
           recorder.piece(piece(from, distance, 0, power), unbounded);
         return bounce == 1 ? PathEnd::missed : PathEnd::left;
       }
-      const auto next = scattered(materials_.of(hit->triangle), hit->normal, from.direction,
-                                  uniform4(seed_, Stream::photons, photon, bounce));
+      const Side side = side_met(materials_, hit->triangle, hit->normal, from.direction);
+      const auto next =
+          scattered(side.material, side.normal, from.direction, uniform4(seed_, Stream::photons, photon, bounce));
       const bool passes = next && glm::dot(*next, hit->normal) * glm::dot(from.direction, hit->normal) > 0;
       const glm::dvec3 end = from.origin + hit->distance * from.direction;
       const double beyond = passes ? gap_ : overshoot(end, from.direction, hit->triangle);

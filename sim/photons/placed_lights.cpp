@@ -52,6 +52,15 @@ void add_intersection(VerticalLine& line, const glm::dvec3& a, const glm::dvec3&
   if (u >= 0 && v >= 0 && u + v <= 1) line.depths.push_back(-(a.y + u * (b.y - a.y) + v * (c.y - a.y)));
 }
 
+/// The numbers of the first and the last line that may be between two coordinates, along an edge of the light.
+std::pair<int, int> lines_between(const std::pair<double, double>& ends, double edge) {
+  const auto line_at = [&](double at) {
+    return std::clamp((at / edge + 0.5) * lines_along_edge - 0.5, -1.0, lines_along_edge + 1.0);
+  };
+  return {std::max(0, static_cast<int>(std::floor(line_at(ends.first))) - 1),
+          std::min(lines_along_edge - 1, static_cast<int>(std::ceil(line_at(ends.second))) + 1)};
+}
+
 /// All coordinates are in units of the box's longest side. Box and light are turned so that Y is up; the mesh is not.
 std::vector<VerticalLine> vertical_lines(const Mesh& mesh, const Up& up, const Box& box, const AreaLight& light,
                                          const std::stop_token& stop) {
@@ -64,10 +73,17 @@ std::vector<VerticalLine> vertical_lines(const Mesh& mesh, const Up& up, const B
                      .z = ((j + 0.5) / lines_along_edge - 0.5) * light.edge_v.z / unit,
                      .depths = {}});
   StopCheck check(stop, "placing the light");
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const auto placed = [&](std::uint32_t corner) { return (up.to_y(mesh.positions[corner]) - top) / unit; };
-    for (VerticalLine& line : all) add_intersection(line, placed(a), placed(b), placed(c));
-    check.after(all.size());
+  for (const auto& corners : mesh.triangles) {
+    const auto placed = [&](int i) { return (up.to_y(mesh.positions[corners[i]]) - top) / unit; };
+    const glm::dvec3 a = placed(0);
+    const glm::dvec3 b = placed(1);
+    const glm::dvec3 c = placed(2);
+    const auto [first_x, last_x] = lines_between(std::minmax({a.x, b.x, c.x}), light.edge_u.x / unit);
+    const auto [first_z, last_z] = lines_between(std::minmax({a.z, b.z, c.z}), light.edge_v.z / unit);
+    for (int i = first_x; i <= last_x; ++i)
+      for (int j = first_z; j <= last_z; ++j)
+        add_intersection(all[static_cast<std::size_t>(i * lines_along_edge + j)], a, b, c);
+    check.after(1);
   }
   for (VerticalLine& line : all) std::sort(line.depths.begin(), line.depths.end());
   return all;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 
 #include "detp/sim/geometry/geometry.hpp"
@@ -24,6 +25,19 @@ namespace detp::sim {
 /// `normal` and `incoming` are unit vectors; `incoming` points to the surface.
 [[nodiscard]] std::optional<glm::dvec3> scattered(const Material& material, const glm::dvec3& normal,
                                                   const glm::dvec3& incoming, const std::array<double, 4>& random);
+
+/// The side of a triangle that a photon meets.
+struct Side {
+  const Material& material;
+  glm::dvec3 normal;  ///< of the triangle whose material this is: a back with a material of its own is another's front
+};
+
+/// `normal`: of the triangle.
+[[nodiscard]] inline Side side_met(const Materials& materials, std::size_t triangle, const glm::dvec3& normal,
+                                   const glm::dvec3& incoming) {
+  if (!materials.has_back(triangle) || glm::dot(incoming, normal) < 0) return {materials.of(triangle), normal};
+  return {materials.of(triangle, false), -normal};
+}
 
 /// Fresnel's reflectance of unpolarised light at a boundary between two dielectrics; 1 beyond the critical angle.
 /// `cosine`: of the angle between incoming light and normal, in (0, 1]. `index`: behind the boundary over before it.

@@ -82,12 +82,13 @@ struct BackwardPaths::Walk {
       sum += weight * lights.radiance_on_the_way(look, distance);
       if (!hit) return sum + weight * lights.environment();
       sum += weight * lights.radiance_of(hit->triangle, look, distance);
-      const Material& material = scene.mesh.materials.of(hit->triangle);
+      const Side met = side_met(scene.mesh.materials, hit->triangle, hit->normal, look.direction);
+      const Material& material = met.material;
       const auto random = numbers.next();
-      const auto next = scattered(material, hit->normal, look.direction, random);
+      const auto next = scattered(material, met.normal, look.direction, random);
       if (!next) return sum;
-      const bool on_front = glm::dot(hit->normal, look.direction) < 0;
-      const glm::dvec3 side = on_front ? hit->normal : -hit->normal;
+      const bool on_front = glm::dot(met.normal, look.direction) < 0;
+      const glm::dvec3 side = on_front ? met.normal : -met.normal;
       place = {place.point + hit->distance * look.direction, hit->triangle};
       look.direction = *next;
       look.density = unbounded;

@@ -65,13 +65,16 @@ SeenLights::SeenLights(const Scene& scene) : scene_(scene) {
   if (surface_scale_ == 0) return;
   double fluxes = 0;
   for (std::uint32_t i = 0; i < scene.mesh.triangles.size(); ++i) {
-    const double radiance = scene.mesh.materials.of(i).emitted;
-    if (!(radiance > 0)) continue;
-    const auto& [a, b, c] = scene.mesh.triangles[i];
-    const auto& places = scene.mesh.positions;
-    const glm::dvec3 across = glm::cross(places[b] - places[a], places[c] - places[a]);
-    const double area = 0.5 * glm::length(across);
-    if (area > 0) emitting_.push_back({i, fluxes += pi * radiance * area, area, unit_or_zero(across)});
+    for (const bool front : {true, false}) {
+      const double radiance = scene.mesh.materials.emitted(i, front);
+      if (!(radiance > 0)) continue;
+      const auto& [a, b, c] = scene.mesh.triangles[i];
+      const auto& places = scene.mesh.positions;
+      const glm::dvec3 across = glm::cross(places[b] - places[a], places[c] - places[a]);
+      const double area = 0.5 * glm::length(across);
+      const glm::dvec3 normal = unit_or_zero(across);
+      if (area > 0) emitting_.push_back({i, fluxes += pi * radiance * area, area, front ? normal : -normal, radiance});
+    }
   }
   for (const Source& source : sources_)
     if (kind_of(*source.light) == LightKind::surface) surface_density_ += source.probability / fluxes;
@@ -140,15 +143,16 @@ SeenLight SeenLights::seen(const SurfaceLight&, double number, const glm::dvec3&
   if (!(found.distance > 0 && cosine > 0)) return found;
   const double probability =
       (one->up_to - (one == emitting_.begin() ? 0 : std::prev(one)->up_to)) / emitting_.back().up_to;
-  const double radiance = surface_scale_ * scene_.mesh.materials.of(one->triangle).emitted;
+  const double radiance = surface_scale_ * one->radiance;
   found.irradiance = radiance * one->area * cosine / (squared(found.distance) * probability);
-  found.density = surface_density(one->triangle, found.distance, cosine);
+  found.density = surface_density(one->radiance, found.distance, cosine);
   return found;
 }
 
-/// Probability per solid angle that `sample` chooses a direction to the triangle: it chooses points by their flux.
-double SeenLights::surface_density(std::uint32_t triangle, double distance, double cosine) const {
-  return surface_density_ * pi * scene_.mesh.materials.of(triangle).emitted * squared(distance) / cosine;
+/// Probability per solid angle that `sample` chooses a direction to a triangle with this radiance: it chooses points by
+/// their flux.
+double SeenLights::surface_density(double radiance, double distance, double cosine) const {
+  return surface_density_ * pi * radiance * squared(distance) / cosine;
 }
 
 double SeenLights::radiance_on_the_way(const Look& look, double distance) const {
@@ -172,13 +176,15 @@ double SeenLights::radiance_on_the_way(const Look& look, double distance) const 
 }
 
 double SeenLights::radiance_of(std::uint32_t triangle, const Look& look, double distance) const {
-  const double emitted = scene_.mesh.materials.of(triangle).emitted;
-  if (!(surface_scale_ > 0 && emitted > 0)) return 0;
+  const Materials& materials = scene_.mesh.materials;
+  if (!(surface_scale_ > 0 && (materials.of(triangle).emitted > 0 || materials.has_back(triangle)))) return 0;
   const auto& [a, b, c] = scene_.mesh.triangles[triangle];
   const auto& places = scene_.mesh.positions;
   const double cosine =
       -glm::dot(unit_or_zero(glm::cross(places[b] - places[a], places[c] - places[a])), look.direction);
-  return cosine > 0 ? surface_scale_ * emitted * share(look.density, surface_density(triangle, distance, cosine)) : 0;
+  const double emitted = materials.emitted(triangle, cosine > 0);
+  if (!(emitted > 0) || cosine == 0) return 0;
+  return surface_scale_ * emitted * share(look.density, surface_density(emitted, distance, std::abs(cosine)));
 }
 
 }  // namespace detp::sim

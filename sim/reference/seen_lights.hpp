@@ -47,7 +47,8 @@ class SeenLights {
 
   /// The look's share of the radiance of the area lights that it crosses from their front before `distance`.
   [[nodiscard]] double radiance_on_the_way(const Look& look, double distance) const;
-  /// The look's share of the radiance of a triangle that it meets at `distance`; 0 from behind, or without a surface light.
+  /// The look's share of the radiance of a triangle that it meets at `distance`; 0 from a side that
+  /// does not emit, or without a surface light.
   [[nodiscard]] double radiance_of(std::uint32_t triangle, const Look& look, double distance) const;
   /// Radiance from where nothing is.
   [[nodiscard]] double environment() const { return environment_; }
@@ -63,10 +64,11 @@ class SeenLights {
     std::uint32_t triangle;
     double up_to;  ///< sum of the fluxes up to and including this one
     double area;
-    glm::dvec3 normal;
+    glm::dvec3 normal;  ///< of the side that emits
+    double radiance;
   };
 
-  [[nodiscard]] double surface_density(std::uint32_t triangle, double distance, double cosine) const;
+  [[nodiscard]] double surface_density(double radiance, double distance, double cosine) const;
   [[nodiscard]] SeenLight seen(const PointLight& light, double strength, const glm::dvec3& point, double u,
                                double v) const;
   [[nodiscard]] SeenLight seen(const SpotLight& light, double strength, const glm::dvec3& point, double u,

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -29,15 +28,18 @@ void check(const Material& material) {
 
 void check(const Materials& materials, std::size_t triangles) {
   for (const Material& material : materials.all) check(material);
-  const auto& numbers = materials.of_triangle;
-  if (numbers.empty()) return;
-  if (numbers.size() != triangles)
-    throw std::invalid_argument(
-        fmt::format("each triangle needs a material ({} for {} triangles)", numbers.size(), triangles));
-  const std::size_t largest = *std::max_element(numbers.begin(), numbers.end());
-  if (largest >= materials.all.size())
-    throw std::invalid_argument(
-        fmt::format("there is no material {} (counting from 0); there are {}", largest, materials.all.size()));
+  const auto require_numbers = [&](const std::vector<std::uint16_t>& numbers, const char* what, bool may_be_none) {
+    if (numbers.empty()) return;
+    if (numbers.size() != triangles)
+      throw std::invalid_argument(
+          fmt::format("{} needs a material ({} for {} triangles)", what, numbers.size(), triangles));
+    for (const std::uint16_t number : numbers)
+      if (number >= materials.all.size() && !(may_be_none && number == no_back))
+        throw std::invalid_argument(
+            fmt::format("there is no material {} (counting from 0); there are {}", number, materials.all.size()));
+  };
+  require_numbers(materials.of_triangle, "each triangle", false);
+  require_numbers(materials.of_back, "each triangle's back", true);
 }
 
 }  // namespace detp::sim

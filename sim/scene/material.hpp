@@ -27,18 +27,40 @@ inline const Material matt{};
 /// and the shares add up to at most 1.
 void check(const Material& material);
 
+/// In place of the material of a back: the back is as the front, and emits nothing.
+inline constexpr std::uint16_t no_back = UINT16_MAX;
+
 /// The materials of a mesh's triangles.
 struct Materials {
   std::vector<Material> all = {};               ///< none: every triangle is matt
   std::vector<std::uint16_t> of_triangle = {};  ///< indices into `all`; none: every triangle has the first material
+  /// Of the backs: indices into `all`, or no_back; none: no_back for all. A back with a material of its own is the front of
+  /// a triangle that faces the other way.
+  std::vector<std::uint16_t> of_back = {};
 
+  /// Index into `all`, which has some.
+  [[nodiscard]] std::uint16_t number_of(std::size_t triangle) const {
+    return of_triangle.empty() ? std::uint16_t{0} : of_triangle[triangle];
+  }
   [[nodiscard]] const Material& of(std::size_t triangle) const {
     if (all.empty()) return matt;
     return of_triangle.empty() ? all.front() : all[of_triangle[triangle]];
   }
+  /// Whether the triangle's back has a material of its own.
+  [[nodiscard]] bool has_back(std::size_t triangle) const { return !of_back.empty() && of_back[triangle] != no_back; }
+  /// Of the triangle's front or back.
+  [[nodiscard]] const Material& of(std::size_t triangle, bool front) const {
+    return !front && has_back(triangle) ? all[of_back[triangle]] : of(triangle);
+  }
+  /// Radiance of the triangle's front or back.
+  [[nodiscard]] double emitted(std::size_t triangle, bool front) const {
+    if (front) return of(triangle).emitted;
+    return has_back(triangle) ? all[of_back[triangle]].emitted : 0;
+  }
 };
 
-/// Throws std::invalid_argument as check(Material), and unless each of so many triangles has a material.
+/// Throws std::invalid_argument as check(Material), and unless each of so many triangles has a material, and so has its
+/// back if backs have any.
 void check(const Materials& materials, std::size_t triangles);
 
 }  // namespace detp::sim

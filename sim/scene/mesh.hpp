@@ -30,6 +30,7 @@ struct Mesh {
       {};  ///< the number in the file, from 0, of each position; empty: its place
   std::uint64_t normals_made =
       0;  ///< corners whose normal the file lacks or has as zero, NaN or infinite, if it has others
+  std::uint64_t coincident = 0;  ///< triangles that lie where an earlier one does, wholly or in part
 };
 
 /// Messages for the user that are not errors: "12 unreferenced vertices dropped".

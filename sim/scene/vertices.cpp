@@ -33,9 +33,17 @@ int scale_exponent(const Mesh& mesh) {
   return largest == 0 ? 0 : -std::ilogb(largest);
 }
 
-glm::dvec3 scaled(const glm::dvec3& point, int exponent) {
-  return {std::scalbn(point.x, exponent), std::scalbn(point.y, exponent), std::scalbn(point.z, exponent)};
-}
+/// Multiplies by a power of two.
+struct Scaling {
+  int exponent = 0;
+  double factor = 1;  ///< 0: beyond the range of doubles
+
+  explicit Scaling(int power) : exponent(power), factor(std::abs(power) < 1000 ? std::ldexp(1.0, power) : 0) {}
+  glm::dvec3 operator()(const glm::dvec3& point) const {
+    if (factor > 0) return factor * point;
+    return {std::scalbn(point.x, exponent), std::scalbn(point.y, exponent), std::scalbn(point.z, exponent)};
+  }
+};
 
 /// Twice the triangle's area times its unit normal; zero if it has no area. Computed at the corner between the two
 /// shorter edges, where the rounding error is least.
@@ -104,7 +112,7 @@ class VertexMaker {
       : mesh_(mesh),
         check_(stop, "taking samples at the vertices"),
         least_cosine_(crease >= 180 ? -2 : std::cos(crease * std::numbers::pi / 180)),
-        exponent_(scale_exponent(mesh)) {}
+        scaled_(scale_exponent(mesh)) {}
 
   void make() {
     first_ = first_of_place(mesh_.positions, check_);
@@ -119,8 +127,7 @@ class VertexMaker {
  private:
   [[nodiscard]] Corners corners_of(std::size_t triangle) const {
     const auto& [a, b, c] = mesh_.triangles[triangle];
-    return {scaled(mesh_.positions[a], exponent_), scaled(mesh_.positions[b], exponent_),
-            scaled(mesh_.positions[c], exponent_)};
+    return {scaled_(mesh_.positions[a]), scaled_(mesh_.positions[b]), scaled_(mesh_.positions[c])};
   }
 
   [[nodiscard]] std::uint32_t file_vertex(std::uint32_t vertex) const {
@@ -244,13 +251,14 @@ class VertexMaker {
   void write() {
     std::vector<std::uint32_t> order(vertices_.size());
     std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    const auto is_before = [&](std::uint32_t a, std::uint32_t b) {
       check_.after(1);
       const Vertex& one = vertices_[a];
       const Vertex& other = vertices_[b];
       return one.file_vertex != other.file_vertex ? one.file_vertex < other.file_vertex
                                                   : one.first_corner < other.first_corner;
-    });
+    };
+    if (!std::ranges::is_sorted(order, is_before)) std::ranges::sort(order, is_before);
     std::vector<std::uint32_t> number(vertices_.size());
     std::vector<glm::dvec3> positions;
     positions.reserve(order.size());
@@ -272,7 +280,7 @@ class VertexMaker {
   Mesh& mesh_;
   StopCheck check_;
   double least_cosine_;
-  int exponent_;
+  Scaling scaled_;
   std::vector<std::uint32_t> first_;  ///< of the place of each old vertex
   std::vector<glm::dvec3> normals_;   ///< of triangles
   std::vector<double> areas_;         ///< of triangles, twice
@@ -290,14 +298,14 @@ void note_dropped(Notices& notices, std::size_t count, const std::string& kind, 
     notices.push_back(std::to_string(count) + kind + (count == 1 ? " vertex" : " vertices") + " dropped" + why);
 }
 
-std::size_t unreferenced_vertices(const Mesh& mesh) {
+}  // namespace
+
+void note_unreferenced(const Mesh& mesh, Notices& notices) {
   std::vector<bool> used(mesh.positions.size());
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t corner : triangle) used[corner] = true;
-  return static_cast<std::size_t>(std::ranges::count(used, false));
+  note_dropped(notices, static_cast<std::size_t>(std::ranges::count(used, false)), " unreferenced");
 }
-
-}  // namespace
 
 std::vector<std::uint32_t> first_of_place(std::span<const glm::dvec3> positions, StopCheck& check) {
   std::vector<std::uint32_t> first(positions.size());
@@ -314,7 +322,6 @@ std::vector<std::uint32_t> first_of_place(std::span<const glm::dvec3> positions,
 std::vector<Sample> samples_at_vertices(Mesh& mesh, double crease, Notices& notices, const std::stop_token& stop) {
   if (!(crease >= 0 && crease <= 180))
     throw std::invalid_argument("crease angle must be from 0 to 180 degrees (got " + std::to_string(crease) + ")");
-  note_dropped(notices, unreferenced_vertices(mesh), " unreferenced");
   VertexMaker(mesh, crease, stop).make();
   std::vector<Sample> samples;
   samples.reserve(mesh.positions.size());

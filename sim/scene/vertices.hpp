@@ -12,10 +12,13 @@
 namespace detp::sim {
 
 /// Faces that meet at a smaller angle are one surface (README.md).
-inline constexpr double default_crease = 40;  // degrees; 0: flat
+inline constexpr double default_crease = 50;  // degrees; 0: flat
 
 /// For each position the number of the first one with the same coordinates.
 [[nodiscard]] std::vector<std::uint32_t> first_of_place(std::span<const glm::dvec3> positions, StopCheck& check);
+
+/// Adds a notice with the number of vertices that no triangle uses, if there are any.
+void note_unreferenced(const Mesh& mesh, Notices& notices);
 
 /// Divides and joins the vertices of a mesh so that each has one position and one normal, and no two have both the same: whatever the
 /// indexing of a file, the same surface has the same vertices. Returns a sample at each vertex that a triangle uses and that has a
@@ -31,8 +34,8 @@ inline constexpr double default_crease = 40;  // degrees; 0: flat
 ///   divided. Where the sum cancels, it is the normal of the largest triangle.
 ///
 /// Vertices are in the order of the first vertex of the file at their position and with their normal, then of their first triangle.
-/// Unreferenced vertices are dropped. Vertices whose triangles all have no area have a zero normal and no sample. Each kind adds one notice
-/// with its count. `crease` in degrees, in [0, 180]. Throws std::invalid_argument for another; Stopped if a stop was requested.
+/// Unreferenced vertices are dropped. Vertices whose triangles all have no area have a zero normal and no sample, and add a notice
+/// with their count. `crease` in degrees, in [0, 180]. Throws std::invalid_argument for another; Stopped if a stop was requested.
 [[nodiscard]] std::vector<Sample> samples_at_vertices(Mesh& mesh, double crease, Notices& notices,
                                                       const std::stop_token& stop = {});
 

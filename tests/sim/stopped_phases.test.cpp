@@ -119,7 +119,7 @@ TEST_SUITE("identity") {
     check_phase({"edges", [&](const auto& stop) { use(mean_edge_length(mesh, stop)); }, 3 * triangles});
     check_phase({"light",
                  [&](const auto& stop) { use(placed_lights(std::array{LightKind::area}, mesh, tree().box, {}, stop)); },
-                 25 * triangles});
+                 triangles});
     check_phase({"up", [&](const auto& stop) { use(up_of(mesh, tree().box, stop)); }, triangles});
     Notices notices;
     check_phase({"vertices",

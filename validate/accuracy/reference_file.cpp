@@ -55,6 +55,8 @@ std::string digest_of(const sim::Scene& scene) {
     for (const double value : {one.diffuse, one.specular, one.shininess, one.glass, one.index, one.emitted})
       digest.add(value);
   for (const std::uint16_t material : scene.mesh.materials.of_triangle) digest.add(std::uint64_t{material});
+  if (const auto& backs = scene.mesh.materials.of_back; !backs.empty()) digest.add(std::uint64_t{backs.size()});
+  for (const std::uint16_t material : scene.mesh.materials.of_back) digest.add(std::uint64_t{material});
   for (const sim::Light& light : scene.lights) {
     digest.add(std::uint64_t{light.shape.index()});
     digest.add(light.flux);

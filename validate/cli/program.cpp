@@ -2,6 +2,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <cmath>
+#include <cstdio>
 #include <new>
 #include <stdexcept>
 #include <system_error>
@@ -195,7 +196,10 @@ int run_program(int argc, char** argv, const JoinWorld& join) {
   std::optional<Interruption> watch;
   try {
     watch.emplace();
-  } catch (const std::system_error&) {
+  } catch (const std::bad_alloc&) {  // no memory for a message either
+    std::fputs("detp: out of memory; allow more (ulimit -v)\n", stderr);
+    return static_cast<int>(ExitCode::bad_input);
+  } catch (const std::exception&) {
     const Failure failure = current_failure({argv, argv + argc});
     return fail(failure.code, failure.message);
   }

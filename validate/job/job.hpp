@@ -127,6 +127,7 @@ struct Job {
   std::optional<sim::LightLedger> light = {};  ///< of photon paths that were traced
   sim::PolygonCounts polygons = {};            ///< of the scene's mesh
   std::uint64_t normals_made = 0;              ///< Mesh::normals_made
+  std::uint64_t coincident = 0;                ///< Mesh::coincident
   std::optional<Workload> numbers =
       {};  ///< of a workload in numbers: S₀ and box are its own, not those around the discs
   sim::Notices notices;

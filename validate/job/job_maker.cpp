@@ -174,6 +174,7 @@ class JobMaker {
     job_.triangles = scene_->mesh.triangles.size();
     job_.polygons = scene_->mesh.polygons;
     job_.normals_made = scene_->mesh.normals_made;
+    job_.coincident = scene_->mesh.coincident;
     job_.surface = {triangle_area(scene_->mesh, stop_),
                     request_.samples ? 0 : sim::mean_edge_length(scene_->mesh, stop_)};
     const double side = scene_->box.longest_side();

@@ -43,7 +43,7 @@ TEST_SUITE("end to end") {
       CHECK(light.at("left").get<int>() > 0);
       CHECK(light.at("cut") == 0);
       CHECK(light.at("landings").get<double>() > 0.3);
-      for (const char* count : {"polygons_split", "not_plane", "degenerate", "normals_made"})
+      for (const char* count : {"polygons_split", "not_plane", "degenerate", "coincident", "normals_made"})
         CHECK(json.at("geometry").at(count) == 0);
     }
     const Json until = result_of("run @cornell --target-noise 20% --estimator triangle-hits");

@@ -252,6 +252,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
   answer.side = scene.box.longest_side();
   answer.polygons = scene.mesh.polygons;
   answer.normals_made = scene.mesh.normals_made;
+  answer.coincident = scene.mesh.coincident;
   const auto reference = [&] {
     return validate::kept_reference(
         *options.reference, scene,

@@ -26,6 +26,7 @@ struct AccuracyAnswer {
   double seconds = 0;                     ///< that the pilots and the check took
   sim::PolygonCounts polygons = {};       ///< of the scene's mesh
   std::uint64_t normals_made = 0;
+  std::uint64_t coincident = 0;
   std::vector<std::string> warnings = {};  ///< that were noted
 };
 

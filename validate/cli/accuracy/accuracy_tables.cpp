@@ -136,7 +136,7 @@ Json to_json(const AccuracyAnswer& answer) {
           {"planning_seconds", answer.seconds},
           {"pilot_rays", answer.pilot.rays},
           {"light", light_json(answer.pilot.light)},
-          {"geometry", geometry_json(answer.polygons, answer.normals_made)},
+          {"geometry", geometry_json(answer.polygons, answer.normals_made, answer.coincident)},
           {"warnings", answer.warnings}};
 }
 

@@ -144,17 +144,18 @@ Json light_json(const sim::LightLedger& light) {
           {"landings", static_cast<double>(light.landings) / static_cast<double>(light.all_photons())}};
 }
 
-Json geometry_json(const sim::PolygonCounts& polygons, std::uint64_t normals_made) {
+Json geometry_json(const sim::PolygonCounts& polygons, std::uint64_t normals_made, std::uint64_t coincident) {
   return {{"polygons_split", polygons.split},
           {"not_plane", polygons.not_plane},
           {"degenerate", polygons.degenerate},
+          {"coincident", coincident},
           {"normals_made", normals_made}};
 }
 
 Json ledgers_json(const validate::Job& job) {
   Json json = Json::object();
   if (job.light) json["light"] = light_json(*job.light);
-  if (job.triangles > 0) json["geometry"] = geometry_json(job.polygons, job.normals_made);
+  if (job.triangles > 0) json["geometry"] = geometry_json(job.polygons, job.normals_made, job.coincident);
   return json;
 }
 

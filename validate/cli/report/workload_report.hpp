@@ -43,7 +43,8 @@ template <class T>
 
 /// Where light and faces went.
 [[nodiscard]] Json light_json(const sim::LightLedger& light);
-[[nodiscard]] Json geometry_json(const sim::PolygonCounts& polygons, std::uint64_t normals_made);
+[[nodiscard]] Json geometry_json(const sim::PolygonCounts& polygons, std::uint64_t normals_made,
+                                 std::uint64_t coincident);
 
 /// `light`, where photons were traced, and `geometry` of a scene.
 [[nodiscard]] Json ledgers_json(const validate::Job& job);
