@@ -113,7 +113,7 @@ TEST_SUITE("end to end") {
         REQUIRE(other.irradiance.size() == 24);
         const std::vector<double> one = in_order(shared.irradiance);
         const std::vector<double> two = in_order(other.irradiance);
-        for (std::size_t disc = 0; disc < 24; ++disc) CHECK(one[disc] == doctest::Approx(two[disc]).epsilon(1e-12));
+        CHECK(one == two);
       }
       const double mean = shared.json.at("mean_irradiance").get<double>() / (2 * std::numbers::pi);
       if (estimator == "area-corrected" || estimator == "triangle-hits") CHECK(std::abs(mean - 1) < 0.02);
