@@ -25,7 +25,7 @@ inline constexpr double overshoot_over_radius = 2;
 ///
 /// The discs of the pilot lie on the scene's triangles, spread by area, with d = 2 % of the scene's longest side. So the value is one of
 /// the scene: it depends neither on the samples and the radius that are asked for nor on a seed, and irradiance is continuous in d. Cost:
-/// tracing the pieces, and a tree of boxes over 8192 discs, 5 to 20 ms. Throws as photon_paths.
+/// tracing the pieces, and a tree of boxes over 8192 discs: 6 to 29 ms (README.md). Throws as photon_paths.
 [[nodiscard]] Finding self_shadow(const Scene& scene, std::shared_ptr<const RayCaster> caster, bool front_facing,
                                   const std::stop_token& stop = {});
 

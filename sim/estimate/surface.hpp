@@ -30,8 +30,8 @@ namespace detp::sim {
 ///   where  b_v  weights of the corners at the point of the triangle nearest to the disc's centre
 ///
 /// Of several triangles at the same distance, the one whose normal is nearest to the disc's. The radius of the discs does not
-/// matter. Triangles share a vertex if they name the same one: a file that repeats the corners for each face keeps its edges
-/// sharp. Sources: J. Arvo, "Backward ray tracing", SIGGRAPH course 1986; S. N. Pattanaik, S. P. Mudur, "Computation of global
+/// matter. Triangles share a vertex if they name the same one. Those of a scene have one normal each (sim/scene/vertices.hpp), so
+/// its edges stay sharp. Sources: J. Arvo, "Backward ray tracing", SIGGRAPH course 1986; S. N. Pattanaik, S. P. Mudur, "Computation of global
 /// illumination by Monte Carlo simulation of the particle model of light", 1992.
 [[nodiscard]] std::unique_ptr<Index> prepare_triangle_hits(const Problem& problem, const Mesh& mesh,
                                                            const RunOptions& options);

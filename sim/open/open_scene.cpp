@@ -78,6 +78,8 @@ Box box_of(const Scene& scene) {
 
 /// Adds the samples to a scene that already has its mesh and name.
 void add_samples(Scene& scene, const SceneRequest& request, const std::stop_token& stop) {
+  note_unreferenced(scene.mesh, scene.notices);
+  join_coincident(scene.mesh, scene.notices, stop);
   scene.samples = samples_at_vertices(scene.mesh, request.crease, scene.notices, stop);
   if (scene.samples.empty())
     throw FileError(request.name, "no vertex has a normal; irradiance needs triangles with an area");
@@ -123,6 +125,7 @@ Scene built_in_scene(const SceneRequest& request, const std::stop_token& stop) {
   scene.lights = std::move(lit_mesh.lights);
   if (request.lights.empty()) scene.known_irradiance = lit_mesh.known_irradiance;
   add_samples(scene, request, stop);
+  scene.notices.clear();  // they are about files
   scene.box = box_of(scene);
   add_lights(scene, request, request.up.value_or(Up{}), stop);
   return scene;
@@ -132,8 +135,6 @@ Scene mesh_scene(const SceneRequest& request, const std::stop_token& stop) {
   Scene scene;
   scene.name = request.name;
   scene.mesh = read_mesh(request.name, scene.notices, stop);
-  note_unreferenced(scene.mesh, scene.notices);
-  join_coincident(scene.mesh, scene.notices, stop);  // in built-in scenes, no light reaches faces in the same place
   add_samples(scene, request, stop);
   scene.box = box_of(scene);
   if (scene.box.low == scene.box.high) return scene;

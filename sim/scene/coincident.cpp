@@ -182,9 +182,7 @@ class Rewriting {
 
   std::uint32_t add_vertex(const glm::dvec3& scaled) {
     const auto number = static_cast<std::uint32_t>(mesh_.positions.size());
-    const int exponent = -plates_.exponent;
-    mesh_.positions.push_back(
-        {std::scalbn(scaled.x, exponent), std::scalbn(scaled.y, exponent), std::scalbn(scaled.z, exponent)});
+    mesh_.positions.push_back(plates_.scaled.inverse()(scaled));
     if (!mesh_.normals.empty()) mesh_.normals.push_back(glm::dvec3{0.0});
     if (mesh_.file_vertices.empty())
       for (std::uint32_t i = 0; i < number; ++i) mesh_.file_vertices.push_back(i);

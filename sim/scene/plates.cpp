@@ -20,14 +20,8 @@ using Corners = std::array<glm::dvec3, 3>;
 
 struct Placement {
   double diagonal = 0;
-  int exponent = 0;  ///< scales the largest coordinate to about 1
+  Scaling scaled = Scaling{};  ///< to about 1
 };
-
-glm::dvec3 times_power(const glm::dvec3& point, int exponent) {
-  if (std::abs(exponent) < 1000)
-    return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52) * point;
-  return {std::scalbn(point.x, exponent), std::scalbn(point.y, exponent), std::scalbn(point.z, exponent)};
-}
 
 /// The diagonal is scaled.
 Placement placement_of(const Mesh& mesh, StopCheck& check) {
@@ -38,8 +32,8 @@ Placement placement_of(const Mesh& mesh, StopCheck& check) {
   double largest = 0;
   for (int axis = 0; axis < 3; ++axis) largest = std::max({largest, std::abs(box.low[axis]), std::abs(box.high[axis])});
   if (largest == 0 || !std::isfinite(largest)) return {};
-  const int exponent = -std::ilogb(largest);
-  return {glm::length(times_power(box.high, exponent) - times_power(box.low, exponent)), exponent};
+  const Scaling scaled = Scaling::to_one(largest);
+  return {glm::length(scaled(box.high) - scaled(box.low)), scaled};
 }
 
 /// Triangle numbers: those that emit more first.
@@ -124,12 +118,12 @@ std::vector<bool> repeated_ones(const Mesh& mesh, std::span<const std::uint32_t>
   return repeated;
 }
 
-std::vector<Plate> all_plates(const Mesh& mesh, std::span<const std::uint32_t> order, int exponent,
+std::vector<Plate> all_plates(const Mesh& mesh, std::span<const std::uint32_t> order, const Scaling& scaled,
                               const std::stop_token& stop) {
   StopCheck check(stop, preparing);
   std::vector<Plate> plates;
   plates.reserve(order.size());
-  const auto at = [&](std::uint32_t corner) { return times_power(mesh.positions[corner], exponent); };
+  const auto at = [&](std::uint32_t corner) { return scaled(mesh.positions[corner]); };
   for_each_checked(order, check, [&](std::uint32_t triangle) {
     const auto& [a, b, c] = mesh.triangles[triangle];
     plates.push_back(plate_of({at(a), at(b), at(c)}, triangle));
@@ -143,11 +137,11 @@ Plates plates_of(const Mesh& mesh, const std::stop_token& stop) {
   StopCheck check(stop, preparing);
   const Placement placement = placement_of(mesh, check);
   if (!(placement.diagonal > 0)) return {};
-  Plates plates{.slack = std::max(slack_share * placement.diagonal, unit_slack), .exponent = placement.exponent};
+  Plates plates{.slack = std::max(slack_share * placement.diagonal, unit_slack), .scaled = placement.scaled};
   const std::vector<std::uint32_t> order = winners_first(mesh, check);
   std::vector<bool> repeated;
   sim::parallel_invoke([&] { repeated = repeated_ones(mesh, order, stop); },
-                       [&] { plates.all = all_plates(mesh, order, placement.exponent, stop); });
+                       [&] { plates.all = all_plates(mesh, order, placement.scaled, stop); });
   std::size_t kept = 0;
   for_each_checked(0, order.size(), check, [&](std::size_t i) {
     const Plate& plate = plates.all[i];

@@ -6,6 +6,7 @@
 
 #include "mesh.hpp"
 #include "plate.hpp"
+#include "scaling.hpp"
 
 namespace detp::sim {
 
@@ -15,7 +16,7 @@ struct Plates {
   std::vector<std::uint32_t> repeated = {};  ///< triangles with the same corners and face as an earlier one, which wins
   std::uint64_t emitting_repeated = 0;       ///< of them
   double slack = 0;                          ///< lengths up to this are 0
-  int exponent = 0;                          ///< of the scale
+  Scaling scaled = Scaling{};                ///< the power of two
 };
 
 /// Throws Stopped if a stop was requested.

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "detp/sim/geometry/unit_vector.hpp"
+#include "scaling.hpp"
 
 namespace detp::sim {
 namespace {
@@ -20,30 +21,18 @@ constexpr double least_area = 8 * std::numeric_limits<double>::epsilon();
 /// If a sum of normals is shorter than this share of their weights, it is a residue of cancellation.
 constexpr double least_sum = 1e-12;
 constexpr double same_normal = 1e-6;
+constexpr glm::dvec3 none{0.0};
 
 using Corners = std::array<glm::dvec3, 3>;
 
-/// The exponent of a power of two that scales the largest used coordinate to about 1. Then areas can neither vanish nor
-/// overflow, and the scaling is exact.
-int scale_exponent(const Mesh& mesh) {
+/// Scales the largest used coordinate to about 1.
+Scaling scaling_of(const Mesh& mesh) {
   double largest = 0;
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t corner : triangle)
       for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(mesh.positions[corner][axis]));
-  return largest == 0 ? 0 : -std::ilogb(largest);
+  return Scaling::to_one(largest);
 }
-
-/// Multiplies by a power of two.
-struct Scaling {
-  int exponent = 0;
-  double factor = 1;  ///< 0: beyond the range of doubles
-
-  explicit Scaling(int power) : exponent(power), factor(std::abs(power) < 1000 ? std::ldexp(1.0, power) : 0) {}
-  glm::dvec3 operator()(const glm::dvec3& point) const {
-    if (factor > 0) return factor * point;
-    return {std::scalbn(point.x, exponent), std::scalbn(point.y, exponent), std::scalbn(point.z, exponent)};
-  }
-};
 
 /// Twice the triangle's area times its unit normal; zero if it has no area. Computed at the corner between the two
 /// shorter edges, where the rounding error is least.
@@ -91,6 +80,8 @@ struct PlaceCorner {
   std::uint32_t number;  ///< 3 · triangle + corner
   std::uint32_t vertex;
   std::uint32_t group;  ///< place in the list of the first corner of its group
+  glm::dvec3 given;     ///< the mesh's normal; 0: none
+  bool has_group;       ///< no normal is given, and the triangle has an area
 };
 
 /// An edge from the place to another one.
@@ -104,6 +95,7 @@ struct Vertex {
   std::uint32_t file_vertex;  ///< least of its corners
   std::uint32_t first_corner;
   glm::dvec3 normal;
+  std::array<std::int32_t, 3> key;  ///< of the normal
 };
 
 class VertexMaker {
@@ -112,7 +104,7 @@ class VertexMaker {
       : mesh_(mesh),
         check_(stop, "taking samples at the vertices"),
         least_cosine_(crease >= 180 ? -2 : std::cos(crease * std::numbers::pi / 180)),
-        scaled_(scale_exponent(mesh)) {}
+        scaled_(scaling_of(mesh)) {}
 
   void make() {
     first_ = first_of_place(mesh_.positions, check_);
@@ -161,30 +153,26 @@ class VertexMaker {
   void make_vertices(std::size_t place) {
     here_.clear();
     const std::size_t first_vertex = vertices_.size();
-    for (std::uint32_t i = starts_[place]; i < starts_[place + 1]; ++i)
-      here_.push_back(
-          {corners_[i], mesh_.triangles[corners_[i] / 3][corners_[i] % 3], static_cast<std::uint32_t>(here_.size())});
+    for (std::uint32_t i = starts_[place]; i < starts_[place + 1]; ++i) {
+      const std::uint32_t vertex = mesh_.triangles[corners_[i] / 3][corners_[i] % 3];
+      const glm::dvec3 given = normal_given(vertex);
+      here_.push_back({corners_[i], vertex, static_cast<std::uint32_t>(here_.size()), given,
+                       given == none && normals_[corners_[i] / 3] != none});
+    }
     check_.after(here_.size());
     join_over_edges();
-    for (const PlaceCorner& corner : here_) {
-      if (normal_given(corner.vertex) != glm::dvec3{0.0}) {
-        add_corner(corner, normal_given(corner.vertex), first_vertex);
-      } else if (normals_[corner.number / 3] != glm::dvec3{0.0}) {
+    for (const PlaceCorner& corner : here_)
+      if (corner.given != none)
+        add_corner(corner, corner.given, first_vertex);
+      else if (corner.has_group)
         add_corner(corner, normal_of_group(corner), first_vertex);
-      }
-    }
     for (const PlaceCorner& corner : here_)  // of triangles without area: they take what is there
-      if (normal_given(corner.vertex) == glm::dvec3{0.0} && normals_[corner.number / 3] == glm::dvec3{0.0})
-        add_corner(corner, vertices_.size() > first_vertex ? vertices_[first_vertex].normal : glm::dvec3{0.0},
-                   first_vertex);
+      if (corner.given == none && !corner.has_group)
+        add_corner(corner, vertices_.size() > first_vertex ? vertices_[first_vertex].normal : none, first_vertex);
   }
 
   [[nodiscard]] glm::dvec3 normal_given(std::uint32_t vertex) const {
-    return mesh_.normals.empty() ? glm::dvec3{0.0} : unit_or_zero(mesh_.normals[vertex]);
-  }
-
-  [[nodiscard]] bool has_group(const PlaceCorner& corner) const {
-    return normal_given(corner.vertex) == glm::dvec3{0.0} && normals_[corner.number / 3] != glm::dvec3{0.0};
+    return mesh_.normals.empty() ? none : unit_or_zero(mesh_.normals[vertex]);
   }
 
   std::uint32_t root(std::uint32_t corner) {
@@ -196,7 +184,7 @@ class VertexMaker {
     edges_.clear();
     sums_.assign(here_.size(), glm::dvec3{0.0});
     for (std::uint32_t i = 0; i < here_.size(); ++i) {
-      if (!has_group(here_[i])) continue;
+      if (!here_[i].has_group) continue;
       const auto& triangle = mesh_.triangles[here_[i].number / 3];
       for (const std::uint32_t step : {1U, 2U}) edges_.push_back({first_[triangle[(here_[i].number + step) % 3]], i});
     }
@@ -222,7 +210,7 @@ class VertexMaker {
   void weigh() {
     for (std::uint32_t i = 0; i < here_.size(); ++i) {
       const std::uint32_t triangle = here_[i].number / 3;
-      if (has_group(here_[i]))
+      if (here_[i].has_group)
         sums_[root(i)] += angle_at(corners_of(triangle), here_[i].number % 3) * normals_[triangle];
     }
   }
@@ -232,18 +220,19 @@ class VertexMaker {
     if (glm::length(sums_[group]) > least_sum) return unit_or_zero(sums_[group]);
     std::uint32_t largest = group;
     for (std::uint32_t i = 0; i < here_.size(); ++i)
-      if (has_group(here_[i]) && root(i) == group && areas_[here_[i].number / 3] > areas_[here_[largest].number / 3])
+      if (here_[i].has_group && root(i) == group && areas_[here_[i].number / 3] > areas_[here_[largest].number / 3])
         largest = i;
     return normals_[here_[largest].number / 3];
   }
 
   /// Gives the corner the vertex with this normal, among those of the place.
   void add_corner(const PlaceCorner& corner, const glm::dvec3& normal, std::size_t first_vertex) {
+    const auto key = key_of(normal);
     std::size_t vertex = first_vertex;
-    while (vertex < vertices_.size() && key_of(vertices_[vertex].normal) != key_of(normal)) ++vertex;
+    while (vertex < vertices_.size() && vertices_[vertex].key != key) ++vertex;
     check_.after(vertex - first_vertex);
     if (vertex == vertices_.size())
-      vertices_.push_back({corner.vertex, file_vertex(corner.vertex), corner.number, normal});
+      vertices_.push_back({corner.vertex, file_vertex(corner.vertex), corner.number, normal, key});
     vertices_[vertex].file_vertex = std::min(vertices_[vertex].file_vertex, file_vertex(corner.vertex));
     vertex_of_corner_[corner.number] = static_cast<std::uint32_t>(vertex);
   }

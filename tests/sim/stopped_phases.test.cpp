@@ -81,6 +81,7 @@ const Scene& tree() {
 TEST_SUITE("identity") {
   TEST_CASE("the work between two checks is bounded while rays and samples are made, and a stop request ends it") {
     const Sphere sphere{};
+    use(tree());  // opened before work is logged
     std::vector<Ray> room(300'000);
     check_phase(
         {"lines", [&](const auto& stop) { use(LineField(sphere, 1).lines(0, room.size(), stop)); }, room.size()});

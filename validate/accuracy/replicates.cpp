@@ -33,8 +33,7 @@ double ReplicateMaker::surface_seconds(sim::Estimator estimator) const {
   return estimator == sim::Estimator::triangle_hits ? triangle_hits_.seconds : 0;
 }
 
-bool ReplicateMaker::goes_on(double radius) {
-  if (radius == 0) return false;
+bool ReplicateMaker::goes_on() {
   if (!goes_on_) {
     const sim::Finding shadow = sim::self_shadow(scene_, caster_, front_facing_, stop_);
     goes_on_ = sim::EffectSelection{}.is_on(sim::concave_surfaces, shadow.value, shadow.standard_error);
@@ -43,7 +42,7 @@ bool ReplicateMaker::goes_on(double radius) {
 }
 
 sim::TracedPaths ReplicateMaker::trace(std::size_t rays, std::uint64_t seed, double radius) {
-  scene_.overshoot = goes_on(radius) ? sim::overshoot_over_radius * radius : 0;
+  scene_.overshoot = radius > 0 && goes_on() ? sim::overshoot_over_radius * radius : 0;
   return sim::photon_paths(scene_, rays, seed, caster_, stop_);
 }
 

@@ -36,7 +36,7 @@ class ReplicateMaker {
   ReplicateMaker(sim::Scene& scene, bool front_facing, int threads, std::stop_token stop = {});
 
   /// Decides whether paths go on beyond surfaces (trace), so that tracing does not take the time for it.
-  void decide_overshoot() { static_cast<void>(goes_on(1)); }
+  void decide_overshoot() { static_cast<void>(goes_on()); }
 
   /// Seconds that building took: of the mesh's ray caster, and of the surfaces of an estimator that needs the mesh (0 before its
   /// first estimate).
@@ -52,7 +52,7 @@ class ReplicateMaker {
                                       const AccuracySetting& setting, bool standard_error = false) const;
 
  private:
-  [[nodiscard]] bool goes_on(double radius);
+  [[nodiscard]] bool goes_on();
   [[nodiscard]] const sim::Index& surfaces(const sim::Problem& problem, sim::Estimator estimator) const;
 
   sim::Scene& scene_;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "detp/sim/files/file_error.hpp"
+#include "detp/sim/scene/coincident.hpp"
 #include "support/scratch_file.hpp"
 
 using namespace detp;
@@ -45,6 +46,19 @@ TEST_SUITE("known answer") {
       for (const Sample& sample : scene.samples) box.include(sample.position);
       CHECK(box.low == scene.box.low);
       CHECK(box.high == scene.box.high);
+    }
+  }
+
+  TEST_CASE("no faces of a built-in scene are in the same place") {
+    for (const char* name : {"@tree-coarse", "@courtyard", "@cornell", "@caustic", "@interior", "@room:8", "@machine:9",
+                             "@details:7", "@plant:7", "@shells:7", "@terrain:7"}) {
+      CAPTURE(name);
+      Scene scene = open_scene({.name = name, .samples = {}});
+      CHECK(scene.notices.empty());
+      const std::size_t triangles = scene.mesh.triangles.size();
+      join_coincident(scene.mesh, scene.notices);
+      CHECK(scene.mesh.coincident == 0);
+      CHECK(scene.mesh.triangles.size() == triangles);
     }
   }
 

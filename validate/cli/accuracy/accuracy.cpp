@@ -312,6 +312,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
       {"seeds", options.seeds ? Json(*options.seeds) : Json()},
       {"samples", scene.samples.size()},
       {"front_facing", options.front_facing}};
+  if (options.crease) result.inputs["crease"] = parse_crease(*options.crease);
   result.json = to_json(answer);
   result.text = to_text(answer, common.screen());
   result.csv = csv_of(answer);

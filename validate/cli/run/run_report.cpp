@@ -321,13 +321,12 @@ std::string why_nothing(const validate::Job& job, const RunAnswer& answer) {
       fmt::format("no hits: none of {} rays meets one of {} discs", outcome.progress.of, job.disc_count());
   if (!job.light) return text + ": do the discs lie where the rays are, and are they large enough?";
   if (job.light->landings == 0) return text + ": no photon meets a surface";
-  return text + fmt::format(
-                    ", although photons land {:.3g} times each: samples at corners and edges have the mean normal of "
-                    "the faces "
-                    "around, and light that lands beside them does not cross their discs; --samples N adds samples on "
-                    "faces, and "
-                    "--estimator triangle-hits needs none",
-                    static_cast<double>(job.light->landings) / static_cast<double>(job.light->all_photons()));
+  return text +
+         fmt::format(
+             ", although photons land {:.3g} times each: do discs lie where the light is? A disc whose normal is "
+             "between those of the faces around, as at a corner that is smooth (--crease), lies beside them; "
+             "--samples N adds samples on faces, and --estimator triangle-hits needs none",
+             static_cast<double>(job.light->landings) / static_cast<double>(job.light->all_photons()));
 }
 
 std::string to_text(const validate::Job& job, const RunAnswer& answer, const Screen& screen, bool verbose) {

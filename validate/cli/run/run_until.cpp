@@ -172,8 +172,8 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
       constexpr double share = 0.25;  // of the run's rays: the user asked for noise alone
       until.bias =
           bias_of(job, answer.estimator, target.error, share * static_cast<double>(until.result.rays), threads, stop);
-    } catch (const sim::Stopped&) {  // the answer is complete without it
-    } catch (const validate::NoLight&) {
+    } catch (const sim::Stopped&) {       // the answer is complete without it
+    } catch (const validate::NoLight&) {  // nor is a bias known
     }
   until.seconds = watch.seconds() + job.trace_seconds;
   answer.until = std::move(until);
