@@ -6,10 +6,10 @@
 #include "detp/sim/geometry/closest_point.hpp"
 #include "detp/sim/geometry/predicates.hpp"
 #include "detp/sim/geometry/triangle_in_sphere.hpp"
+#include "detp/sim/scene/near_triangles.hpp"
 #include "detp/sim/search/run_memory.hpp"
 #include "landing_tree.hpp"
 #include "near_sums.hpp"
-#include "near_triangles.hpp"
 #include "surface.hpp"
 
 namespace detp::sim {
@@ -89,8 +89,7 @@ class AreaCorrected {
       const double longest =
           std::sqrt(std::max(glm::dot(facet.first, facet.first), glm::dot(facet.second, facet.second)));
       if (glm::length(a) - longest > (1 + 1e-12) * least) return;  // every point of it is farther away
-      const glm::dvec3 weights = closest_point_weights(a, b, c);
-      const double distance = glm::length(weights.x * a + weights.y * b + weights.z * c);
+      const double distance = distance_to_triangle(a, b, c);
       if (distance < least || (distance == least && triangle < nearest)) {
         least = distance;
         nearest = triangle;

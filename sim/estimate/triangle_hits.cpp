@@ -8,9 +8,9 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/geometry/closest_point.hpp"
 #include "detp/sim/geometry/predicates.hpp"
+#include "detp/sim/scene/near_triangles.hpp"
 #include "detp/sim/search/run_memory.hpp"
 #include "near_sums.hpp"
-#include "near_triangles.hpp"
 #include "surface.hpp"
 
 namespace detp::sim {
@@ -47,10 +47,7 @@ class Patches {
             if (near_.is_met(triangle))
               for (const std::uint32_t corner : mesh.triangles[triangle]) add(corner, triangle);
         }) {
-    Box box;
-    for (const auto& corners : mesh.triangles)
-      for (const std::uint32_t corner : corners) box.include(mesh.positions[corner]);
-    if (!box.empty()) scale_ = std::max(glm::length(box.size()), 1e-300);
+    if (const Box box = used_box(mesh); !box.empty()) scale_ = std::max(glm::length(box.size()), 1e-300);
   }
 
   struct Share {

@@ -1,10 +1,13 @@
 #include "obj_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
@@ -27,6 +30,89 @@ namespace {
 struct HashOfName {
   using is_transparent = void;
   std::size_t operator()(std::string_view name) const { return std::hash<std::string_view>()(name); }
+};
+
+/// Numbers names in the order of their first use.
+class NameNumbers {
+ public:
+  std::uint32_t number_of(std::string_view name) {
+    if (const auto known = numbers_.find(name); known != numbers_.end()) return known->second;
+    names_.emplace_back(name);
+    return numbers_[names_.back()] = static_cast<std::uint32_t>(names_.size() - 1);
+  }
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, std::uint32_t, HashOfName, std::equal_to<>> numbers_;
+};
+
+/// First triangle and number of what the triangles up to the next run have; in rising order.
+template <class Number>
+using Runs = std::vector<std::pair<std::size_t, Number>>;
+
+/// Gives each of so many triangles the number of its run.
+template <class Number>
+std::vector<Number> spread(const Runs<Number>& runs, std::size_t triangles, KeptMemory& memory, StopCheck& check) {
+  std::vector<Number> numbers;
+  memory.reserve(numbers, triangles);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    numbers.resize(i + 1 < runs.size() ? runs[i + 1].first : triangles, runs[i].second);
+    check.after(1);
+  }
+  return numbers;
+}
+
+/// The groups of faces by the last `o` and the last `g` before them.
+class ObjGroups {
+ public:
+  static constexpr std::size_t most = 100;  ///< names in a `g`, so that memory grows with the file only
+
+  /// A name, which may contain blanks; none: the faces that follow are of no object.
+  void begin_object(std::string_view name) {
+    object_.clear();
+    if (!name.empty()) object_.push_back(names_.number_of(name));
+    is_new_ = true;
+  }
+
+  /// Names with blanks between them. Returns false if there are too many.
+  bool begin_groups(std::string_view words) {
+    groups_.clear();
+    for (std::string_view word = words.empty() ? "default" : cut_word(words); !word.empty(); word = cut_word(words)) {
+      if (groups_.size() == most) return false;
+      groups_.push_back(names_.number_of(word));
+    }
+    is_new_ = true;
+    return true;
+  }
+
+  /// Takes the first triangle of a face.
+  void add_face(std::size_t triangle, KeptMemory& memory) {
+    if (!std::exchange(is_new_, false)) return;
+    std::vector<std::uint32_t> set = groups_;
+    set.insert(set.end(), object_.begin(), object_.end());
+    std::ranges::sort(set);
+    set.erase(std::unique(set.begin(), set.end()), set.end());
+    const auto number = static_cast<std::uint32_t>(sets_.size());
+    memory.push(runs_, {triangle, sets_.try_emplace(std::move(set), number).first->second});
+  }
+
+  /// None if no face has a name.
+  [[nodiscard]] Groups of(std::size_t triangles, KeptMemory& memory, StopCheck& check) const {
+    if (sets_.empty() || sets_.rbegin()->first.empty()) return {};
+    Groups groups{.names = names_.names(), .of_triangle = spread(runs_, triangles, memory, check)};
+    groups.sets.resize(sets_.size());
+    for (const auto& [set, number] : sets_) groups.sets[number] = set;
+    return groups;
+  }
+
+ private:
+  NameNumbers names_;
+  std::vector<std::uint32_t> object_;  ///< its number, if there is one
+  std::vector<std::uint32_t> groups_;
+  bool is_new_ = true;  ///< since the last face
+  std::map<std::vector<std::uint32_t>, std::uint32_t> sets_;
+  Runs<std::uint32_t> runs_;
 };
 
 /// The paths that mtllib lines name, each once.
@@ -108,11 +194,21 @@ class ObjReader {
 
   Mesh read(Notices& notices) {
     while (lines_.next()) {
-      if (lines_.keyword() == "v") add_position();
-      if (lines_.keyword() == "vn") add_normal();
-      if (lines_.keyword() == "f" || lines_.keyword() == "fo") add_face();
-      if (lines_.keyword() == "usemtl") use_material(lines_.name());
-      if (lines_.keyword() == "mtllib") libraries_.add(path_, lines_.name());
+      const std::string_view keyword = lines_.keyword();
+      if (keyword == "v")
+        add_position();
+      else if (keyword == "f" || keyword == "fo")
+        add_face();
+      else if (keyword == "vn")
+        add_normal();
+      else if (keyword == "o")
+        groups_.begin_object(without_comment(lines_.name()));
+      else if (keyword == "g")
+        begin_groups();
+      else if (keyword == "usemtl")
+        use_material(lines_.name());
+      else if (keyword == "mtllib")
+        libraries_.add(path_, lines_.name());
     }
     if (needed_ > mesh_.positions.size())
       throw FileError(path_, line_of_needed_, out_of_range(static_cast<long long>(needed_), mesh_.positions.size()));
@@ -120,6 +216,8 @@ class ObjReader {
     divide_late_polygons();
     mesh_.polygons = triangulator_.counts();
     add_materials(notices);
+    StopCheck check(stop_, "matching groups");
+    mesh_.groups = groups_.of(mesh_.triangles.size(), memory_, check);
     add_vertices();
     return std::move(mesh_);
   }
@@ -142,6 +240,7 @@ class ObjReader {
       memory_.push(corners_, corner_of(corner_in(word)));
     drop_repeated_corners(corners_, &Corner::position);
     if (corners_.size() < 3) lines_.fail("a face needs at least 3 corners");
+    groups_.add_face(mesh_.triangles.size(), memory_);
     const bool known = std::ranges::all_of(corners_, [&](const Corner& one) {
       return one.position < mesh_.positions.size() && (one.normal == no_normal || one.normal < normals_.size());
     });
@@ -210,18 +309,22 @@ class ObjReader {
     for (std::size_t i = 0; i < mesh_.positions.size(); ++i) mesh_.normals.push_back(normal_of(i));
   }
 
+  void begin_groups() {
+    if (!groups_.begin_groups(without_comment(lines_.name())))
+      lines_.fail(fmt::format("a face can be in {} groups", ObjGroups::most));
+  }
+
   /// The material of the faces that follow. Faces before the first one have number 0, that of no name.
   void use_material(std::string_view name) {
-    if (runs_.empty()) memory_.push(runs_, {std::size_t{0}, std::uint16_t{0}});
+    if (runs_.empty()) memory_.push(runs_, {std::size_t{0}, number_of("")});
     memory_.push(runs_, {mesh_.triangles.size(), number_of(name)});
   }
 
   /// The number of a material: the number of other names before it.
   std::uint16_t number_of(std::string_view name) {
-    if (const auto known = numbers_.find(name); known != numbers_.end()) return known->second;
-    if (names_.size() > UINT16_MAX) lines_.fail("a mesh can have 65535 materials");
-    names_.emplace_back(name);
-    return numbers_[names_.back()] = static_cast<std::uint16_t>(names_.size() - 1);
+    const std::uint32_t number = materials_.number_of(name);
+    if (number > UINT16_MAX) lines_.fail("a mesh can have 65535 materials");
+    return static_cast<std::uint16_t>(number);
   }
 
   /// Reads the libraries, and gives each triangle its material. Without a library that can be found, all are matt.
@@ -239,11 +342,13 @@ class ObjReader {
         defined.push_back(std::move(one));
       }
     if (defined.empty()) return;
-    std::vector<Material> materials(names_.size());
+    const std::vector<std::string>& names = materials_.names();
+    std::vector<Material> materials(names.size());
     std::size_t unknown = 0;
-    for (std::size_t i = 1; i < names_.size(); ++i) {
-      const auto exact = whole.find(names_[i]);
-      const auto before_comment = bare.find(without_comment(names_[i]));
+    for (std::size_t i = 1; i < names.size(); ++i) {
+      const auto exact = whole.find(names[i]);
+      const auto before_comment = bare.find(without_comment(names[i]));
+      materials[i].name = names[i];
       if (exact != whole.end())
         materials[i] = defined[exact->second];
       else if (before_comment != bare.end())
@@ -253,12 +358,7 @@ class ObjReader {
     }
     mesh_.materials.all = std::move(materials);
     if (unknown > 0) notices.push_back("materials that no library defines, taken as matt: " + std::to_string(unknown));
-    std::vector<std::uint16_t>& numbers = mesh_.materials.of_triangle;
-    memory_.reserve(numbers, mesh_.triangles.size());
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-      numbers.resize(i + 1 < runs_.size() ? runs_[i + 1].first : mesh_.triangles.size(), runs_[i].second);
-      check.after(1);
-    }
+    mesh_.materials.of_triangle = spread(runs_, mesh_.triangles.size(), memory_, check);
   }
 
   /// The first three numbers of a v or vn line.
@@ -333,9 +433,9 @@ class ObjReader {
   std::size_t line_of_needed_ = 0;
   bool names_normals_ = false;  ///< some corner does
   Libraries libraries_;
-  std::vector<std::string> names_{""};  ///< of materials
-  std::unordered_map<std::string, std::uint16_t, HashOfName, std::equal_to<>> numbers_{{"", 0}};
-  std::vector<std::pair<std::size_t, std::uint16_t>> runs_;  ///< first triangle and material, in rising order
+  ObjGroups groups_;
+  NameNumbers materials_;
+  Runs<std::uint16_t> runs_;  ///< of materials
 };
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace detp::sim {
 namespace {
 
-/// All keywords of OBJ. Only v, vn, f, mtllib and usemtl matter here.
+/// All keywords of OBJ. Only v, vn, f, fo, g, o, mtllib and usemtl matter here.
 constexpr std::array<std::string_view, 44> obj_keywords{
     "v",      "vn",         "f",         "vt",     "vp",    "g",    "o",     "s",    "usemtl", "mtllib",   "l",
     "p",      "fo",         "mg",        "cstype", "deg",   "bmat", "step",  "curv", "curv2",  "surf",     "parm",

@@ -38,4 +38,10 @@ namespace detp::sim {
   return best;
 }
 
+/// The distance of 0 from a triangle.
+[[nodiscard]] inline double distance_to_triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 weights = closest_point_weights(a, b, c);
+  return glm::length(weights.x * a + weights.y * b + weights.z * c);
+}
+
 }  // namespace detp::sim

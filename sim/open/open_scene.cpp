@@ -69,10 +69,8 @@ const BuiltIn& built_in_named(const std::string& name) {
 }
 
 Box box_of(const Scene& scene) {
-  Box box;
+  Box box = used_box(scene.mesh);
   for (const Sample& sample : scene.samples) box.include(sample.position);
-  for (const auto& triangle : scene.mesh.triangles)
-    for (const std::uint32_t corner : triangle) box.include(scene.mesh.positions[corner]);
   return box;
 }
 

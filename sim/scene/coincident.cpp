@@ -170,6 +170,7 @@ class Rewriting {
     if (!mesh_.materials.of_triangle.empty()) mesh_.materials.of_triangle = std::move(of_triangle_);
     if (std::ranges::any_of(of_back_, [](std::uint16_t back) { return back != no_back; }))
       mesh_.materials.of_back = std::move(of_back_);
+    if (!mesh_.groups.of_triangle.empty()) mesh_.groups.of_triangle = std::move(groups_);
   }
 
  private:
@@ -178,6 +179,7 @@ class Rewriting {
     triangles_.push_back(corners);
     of_triangle_.push_back(mesh_.materials.number_of(old));
     of_back_.push_back(back == no_back && mesh_.materials.has_back(old) ? mesh_.materials.of_back[old] : back);
+    if (!mesh_.groups.of_triangle.empty()) groups_.push_back(mesh_.groups.of_triangle[old]);
   }
 
   std::uint32_t add_vertex(const glm::dvec3& scaled) {
@@ -195,6 +197,7 @@ class Rewriting {
   std::vector<std::array<std::uint32_t, 3>> triangles_ = {};
   std::vector<std::uint16_t> of_triangle_ = {};
   std::vector<std::uint16_t> of_back_ = {};
+  std::vector<std::uint32_t> groups_ = {};  ///< indices into the sets
 };
 
 void rewrite(Mesh& mesh, const Plates& plates, std::span<const Change> changes, StopCheck& check) {

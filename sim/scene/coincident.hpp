@@ -14,10 +14,10 @@ namespace detp::sim {
 /// have the same corners as others.
 ///
 /// Of coincident triangles the one that emits more comes first, then the one with the lower number. The first stays as it
-/// is. Of each later one remains what no earlier one covers, as triangles in its place; their new corners are added at
-/// the end of the positions, with zero normals. A later triangle that faces the other way gives its material to the
-/// first one's back (Materials::of_back) if it is another one or emits; the first is divided if this is so for a part.
-/// Without coincident triangles the mesh stays as it is.
+/// is, in its own groups only. Of each later one remains what no earlier one covers, as triangles in its place and in its
+/// groups; their new corners are added at the end of the positions, with zero normals. A later triangle that faces the
+/// other way gives its material to the first one's back (Materials::of_back) if it is another one or emits; the first is
+/// divided if this is so for a part. Without coincident triangles the mesh stays as it is.
 ///
 /// Sets mesh.coincident; adds notices if there are such triangles, and if they emit on the same side. The result depends
 /// on the mesh alone. Cost O(n log n) and the work at the overlaps. Coordinates may be of any size. Throws Stopped if a

@@ -7,6 +7,13 @@
 
 namespace detp::sim {
 
+Box used_box(const Mesh& mesh) {
+  Box box;
+  for (const auto& corners : mesh.triangles)
+    for (const std::uint32_t corner : corners) box.include(mesh.positions[corner]);
+  return box;
+}
+
 double mean_edge_length(const Mesh& mesh, const std::stop_token& stop) {
   StopCheck check(stop, "measuring edges");
   const std::vector<std::uint32_t> place = first_of_place(mesh.positions, check);

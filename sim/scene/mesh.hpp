@@ -20,11 +20,19 @@ struct PolygonCounts {
   std::uint64_t degenerate = 0;  ///< polygons without area, or that cross themselves
 };
 
+/// The names of a mesh's faces, as in OBJ: those of the object and of the groups that a face is in.
+struct Groups {
+  std::vector<std::string> names = {};                ///< in the order of the file; there may be some that no face has
+  std::vector<std::vector<std::uint32_t>> sets = {};  ///< sets of names: rising indices into `names`
+  std::vector<std::uint32_t> of_triangle = {};        ///< indices into `sets`; none: no triangle has a name
+};
+
 struct Mesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::dvec3> normals;  ///< one for each position, or none at all; not necessarily of unit length
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into positions, all in range
   Materials materials = {};
+  Groups groups = {};
   PolygonCounts polygons = {};  ///< of the file
   std::vector<std::uint32_t> file_vertices =
       {};  ///< the number in the file, from 0, of each position; empty: its place
@@ -35,6 +43,9 @@ struct Mesh {
 
 /// Messages for the user that are not errors: "12 unreferenced vertices dropped".
 using Notices = std::vector<std::string>;
+
+/// The box around the positions that triangles use.
+[[nodiscard]] Box used_box(const Mesh& mesh);
 
 /// Mean length of the mesh's edges, an estimate of the distance between neighbouring samples at vertices. An edge of
 /// several triangles, between the same two positions, counts once, an edge of length 0 not at all. Returns 0 if no edge counts. Throws Stopped if a stop

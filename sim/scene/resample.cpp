@@ -22,13 +22,6 @@ std::vector<double> running_areas(const Mesh& mesh, double scale) {
   return sums;
 }
 
-double longest_side(const Mesh& mesh) {
-  Box box;
-  for (const auto& triangle : mesh.triangles)
-    for (const std::uint32_t corner : triangle) box.include(mesh.positions[corner]);
-  return box.longest_side();
-}
-
 /// A uniform point in the triangle: a uniform point of the unit square, folded along its diagonal.
 Sample sample_in(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle, double u, double v, double scale) {
   if (u + v > 1) {
@@ -62,7 +55,7 @@ std::vector<Sample> random_subset(const std::vector<Sample>& samples, std::size_
 void add_by_area(std::vector<Sample>& samples, const Mesh& mesh, std::size_t count, std::uint64_t seed,
                  const std::stop_token& stop) {
   StopCheck check(stop, "spreading samples over the triangles");
-  const double scale = longest_side(mesh);
+  const double scale = used_box(mesh).longest_side();
   if (!(scale > 0)) return;
   const std::vector<double> sums = running_areas(mesh, scale);
   if (!(sums.back() > 0)) return;

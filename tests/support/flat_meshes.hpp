@@ -49,7 +49,8 @@ inline Mesh joined(Mesh mesh) {
 
 inline bool same_bits(const Mesh& a, const Mesh& b) {
   return a.positions == b.positions && a.normals == b.normals && a.triangles == b.triangles &&
-         a.materials.of_triangle == b.materials.of_triangle && a.materials.of_back == b.materials.of_back;
+         a.materials.of_triangle == b.materials.of_triangle && a.materials.of_back == b.materials.of_back &&
+         a.groups.of_triangle == b.groups.of_triangle;
 }
 
 /// Leaves the mesh as it is, without a notice.

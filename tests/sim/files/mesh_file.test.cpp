@@ -48,6 +48,17 @@ Mesh read(const std::string& path) {
   return read_mesh(path, notices);
 }
 
+/// For each triangle the names of its groups.
+std::vector<std::string> groups_in(const Mesh& mesh) {
+  std::vector<std::string> all;
+  for (const std::uint32_t set : mesh.groups.of_triangle) {
+    std::string names;
+    for (const std::uint32_t group : mesh.groups.sets.at(set)) names += mesh.groups.names.at(group) + "|";
+    all.push_back(names);
+  }
+  return all;
+}
+
 std::string mesh_error(const std::string& name, const std::string& content) {
   const ScratchFolder folder;
   return support::file_error_of([&] { (void)read(folder.file(name, content)); });
@@ -105,6 +116,23 @@ TEST_SUITE("known answer") {
     CHECK(mesh.positions[1] == glm::dvec3{1, 0, 0});
     REQUIRE(mesh.triangles.size() == 2);
     CHECK(mesh.triangles[1] == std::array<std::uint32_t, 3>{0, 3, 2});
+  }
+
+  TEST_CASE(
+      "an OBJ face is in its object and in all groups of the last g line, also where faces come before vertices") {
+    const ScratchFolder folder;
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    const std::string faces =
+        "f 1 2 3\ng unused\ng wall north  \nf 1 2 3 4\no My house \t\u00a0\r\nf 1 2 3\ng\nf 1 2 3\no\nf 1 2 3\n"
+        "g roof # flat\nf 1 2 3\ng north wall \\\n wall\nf 1 2 3\n";
+    for (const std::string& text : {corners + faces, faces + corners}) {
+      const Mesh mesh = read(folder.file("m.obj", text));
+      CHECK(groups_in(mesh) == std::vector<std::string>{"", "wall|north|", "wall|north|", "wall|north|My house|",
+                                                        "My house|default|", "default|", "roof|", "wall|north|"});
+      CHECK(mesh.groups.names == std::vector<std::string>{"unused", "wall", "north", "My house", "default", "roof"});
+      CHECK(mesh.groups.sets.size() == 6);
+    }
+    CHECK(read(folder.file("m.obj", corners + "f 1 2 3\ng late\n")).groups.of_triangle.empty());
   }
 
   TEST_CASE("OBJ lines with unknown keywords are skipped with a notice") {
@@ -322,6 +350,12 @@ TEST_SUITE("bad input") {
              return text;
            }(),
            ":101: most lines so far have keywords unknown"},
+          {[&] {
+             std::string names;
+             for (int i = 0; i < 101; ++i) names += " " + std::to_string(i);
+             return triangle + "g" + names + "\n";
+           }(),
+           ":4: a face can be in 100 groups"},
           {triangle, ": has no faces"},
           {"", ": has no faces"}}) {
       const auto& content = bound_content;

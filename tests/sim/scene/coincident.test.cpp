@@ -153,6 +153,22 @@ TEST_SUITE("known answer") {
       }
   }
 
+  TEST_CASE("pieces are in the groups of their face; of faces in the same place, the groups of the first hold") {
+    Mesh mesh;
+    add_rectangle(mesh, {0, 0}, {2, 1});
+    add_rectangle(mesh, {1.5, 0.25}, {3, 2});
+    add_rectangle(mesh, {0, 0}, {2, 1});
+    mesh.groups = {.names = {"a", "b", "c"}, .sets = {{0}, {1}, {2}}, .of_triangle = {0, 0, 1, 1, 2, 2}};
+    const Mesh after = joined(mesh);
+    REQUIRE(after.groups.of_triangle.size() == after.triangles.size());
+    std::array<double, 3> areas{};
+    for (std::size_t i = 0; i < after.triangles.size(); ++i)
+      areas[after.groups.of_triangle[i]] += 0.5 * doubled_area(after, after.triangles[i]);
+    CHECK(areas[0] == 2);
+    CHECK(areas[1] == doctest::Approx(1.5 * 1.75 - 0.5 * 0.75).epsilon(1e-9));
+    CHECK(areas[2] == 0);
+  }
+
   TEST_CASE("boxes that stand on a floor leave its area as it is, and three layers are one") {
     for (const bool floor_first : {true, false}) {
       Mesh mesh;

@@ -10,7 +10,7 @@ namespace detp::sim {
 namespace {
 
 /// In units of the half diagonal of the mesh's box: covers the rounding of coordinates to single precision.
-constexpr float margin = 4e-7F;
+constexpr float box_margin = 4e-7F;
 
 /// What Embree passes to our callbacks. Facets are in scene units.
 struct PointQuery {
@@ -29,13 +29,6 @@ std::vector<Facet> facets_of(const Mesh& mesh, const std::stop_token& stop) {
   return facets;
 }
 
-Box box_of_mesh(const Mesh& mesh) {
-  Box box;
-  for (const auto& corners : mesh.triangles)
-    for (const std::uint32_t corner : corners) box.include(mesh.positions[corner]);
-  return box;
-}
-
 }  // namespace
 
 struct NearTriangles::Embree {
@@ -46,7 +39,7 @@ struct NearTriangles::Embree {
   embree::Owned<RTCScene> scene;
 
   Embree(const Mesh& mesh, const std::stop_token& stop) : distinct(distinct_facets(facets_of(mesh, stop), stop)) {
-    if (const Box box = box_of_mesh(mesh); !box.empty()) {
+    if (const Box box = used_box(mesh); !box.empty()) {
       centre = box.centre();
       const glm::dvec3 size = box.size();
       const double half = 0.5 * std::hypot(size.x, size.y, size.z);
@@ -73,12 +66,12 @@ struct NearTriangles::Embree {
     Box box;
     for (const glm::dvec3& corner : {facet.corner, facet.corner + facet.first, facet.corner + facet.second})
       box.include(own(corner));
-    bounds.lower_x = static_cast<float>(box.low.x) - margin;
-    bounds.lower_y = static_cast<float>(box.low.y) - margin;
-    bounds.lower_z = static_cast<float>(box.low.z) - margin;
-    bounds.upper_x = static_cast<float>(box.high.x) + margin;
-    bounds.upper_y = static_cast<float>(box.high.y) + margin;
-    bounds.upper_z = static_cast<float>(box.high.z) + margin;
+    bounds.lower_x = static_cast<float>(box.low.x) - box_margin;
+    bounds.lower_y = static_cast<float>(box.low.y) - box_margin;
+    bounds.lower_z = static_cast<float>(box.low.z) - box_margin;
+    bounds.upper_x = static_cast<float>(box.high.x) + box_margin;
+    bounds.upper_y = static_cast<float>(box.high.y) + box_margin;
+    bounds.upper_z = static_cast<float>(box.high.z) + box_margin;
   }
 };
 
@@ -92,10 +85,10 @@ NearTriangles::~NearTriangles() = default;
 void NearTriangles::visit(const glm::dvec3& point, double distance, FunctionRef<void(std::uint32_t)> visit) const {
   const glm::dvec3 own = embree_->own(point);
   const double reach = distance / embree_->scale;
-  // Single precision displaces a point far from the mesh by more than the margin.
+  // Single precision displaces a point far from the mesh by more than the box_margin.
   const double far = std::max({1.0, std::abs(own.x), std::abs(own.y), std::abs(own.z)});
   RTCPointQuery query{static_cast<float>(own.x), static_cast<float>(own.y), static_cast<float>(own.z), 0,
-                      static_cast<float>((reach + margin * far) * (1 + 1e-6))};
+                      static_cast<float>((reach + box_margin * far) * (1 + 1e-6))};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   PointQuery ours{&embree_->distinct, visit};

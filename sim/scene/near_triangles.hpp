@@ -4,8 +4,8 @@
 #include <stop_token>
 
 #include "detp/sim/base/function_ref.hpp"
-#include "detp/sim/scene/distinct_facets.hpp"
-#include "detp/sim/scene/mesh.hpp"
+#include "distinct_facets.hpp"
+#include "mesh.hpp"
 
 namespace detp::sim {
 
