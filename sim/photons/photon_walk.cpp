@@ -8,8 +8,6 @@
 namespace detp::sim {
 namespace {
 
-constexpr double gap_share = 1e-5;  // share of the box's diagonal
-
 /// Checks the scene first, so that no later code need handle scenes that cannot be traced.
 const Scene& checked(const Scene& scene) {
   if (scene.lights.empty()) throw std::invalid_argument("photon paths need a light; " + scene.name + " has none");
@@ -43,6 +41,15 @@ PhotonWalk::PhotonWalk(const Scene& scene, std::uint64_t seed, std::shared_ptr<c
   const glm::dvec3 size = scene.box.size() / caster_->scale();
   reach_ = glm::length(size);
   gap_ = gap_share * reach_;
+}
+
+bool PhotonWalk::is_missed_backwards(std::uint64_t photon) const {
+  if (lights_.has_extent(photon)) return false;
+  const PhotonStart from = lights_.photon(photon, uniform4(seed_, Stream::photons, photon)).start;
+  const auto hit = caster_->first_intersection(caster_->to_caster(from.origin), from.direction, from.triangle);
+  if (!hit) return false;
+  const Side side = side_met(materials_, hit->triangle, hit->normal, from.direction);
+  return uniform4(seed_, Stream::photons, photon, 1)[0] >= side.material.diffuse;
 }
 
 /// Distance to where a photon leaves the scene; 0 if it starts outside.

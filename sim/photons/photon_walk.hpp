@@ -21,6 +21,8 @@ class PhotonWalk {
  public:
   /// Per photon, so that walks without absorption terminate. In a closed room of albedo 0.9999, 2·10⁻⁶ of the photons have longer paths.
   static constexpr std::uint64_t most_pieces = std::uint64_t{1} << 17;
+  /// Pieces end beyond surfaces by at least this share of the box's diagonal (photon_paths.hpp).
+  static constexpr double gap_share = 1e-5;
 
   /// Throws std::invalid_argument for a scene in which photons cannot be traced, std::runtime_error if Embree fails,
   /// and Stopped if a stop was requested.
@@ -33,6 +35,10 @@ class PhotonWalk {
 
   /// Power of photon number `photon`.
   [[nodiscard]] double power(std::uint64_t photon) const { return lights_.power(photon); }
+
+  /// Whether photon number `photon` comes from a light without extent, and the surface that it meets first is none at which it is
+  /// scattered diffusely. Then no backward path finds what it brings to later surfaces (sim/reference/backward_paths.hpp).
+  [[nodiscard]] bool is_missed_backwards(std::uint64_t photon) const;
 
   /// Walks photon number `photon` and tells the recorder, in order, of
   ///   piece(ray, landing): a straight piece of the path, as photon_paths describes, with the photon's power; `landing` is

@@ -139,4 +139,23 @@ std::optional<RayCaster::Intersection> RayCaster::first_intersection(const glm::
                       embree_->distinct.triangles[query.nearest]};
 }
 
+void RayCaster::visit_near(const glm::dvec3& point, double distance,
+                           FunctionRef<void(std::uint32_t triangle, const Facet& facet)> visit) const {
+  struct Visit {
+    const DistinctFacets& distinct;
+    FunctionRef<void(std::uint32_t, const Facet&)> call;
+  };
+  Visit found{embree_->distinct, visit};
+  RTCPointQuery query{static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z), 0,
+                      static_cast<float>(distance) + box_slack};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  const auto tell = [](RTCPointQueryFunctionArguments* arguments) {
+    const auto& to = *static_cast<const Visit*>(arguments->userPtr);
+    to.call(to.distinct.triangles[arguments->primID], to.distinct.facets[arguments->primID]);
+    return false;  // the distance does not change
+  };
+  rtcPointQuery(embree_->scene.get(), &query, &context, tell, &found);
+}
+
 }  // namespace detp::sim

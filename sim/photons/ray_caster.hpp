@@ -4,6 +4,8 @@
 #include <optional>
 #include <stop_token>
 
+#include "detp/sim/base/function_ref.hpp"
+#include "detp/sim/scene/facet.hpp"
 #include "detp/sim/scene/mesh.hpp"
 
 namespace detp::sim {
@@ -41,6 +43,11 @@ class RayCaster {
   [[nodiscard]] std::optional<Intersection> first_intersection(const glm::dvec3& origin, const glm::dvec3& direction,
                                                                std::optional<std::uint32_t> from = std::nullopt,
                                                                double within = unbounded) const;
+
+  /// Calls visit(triangle, facet) for each triangle with area that may have a point within `distance` of a point, in no particular
+  /// order; of triangles with the same corners only for the one with the lowest number. All in the caster's own units.
+  void visit_near(const glm::dvec3& point, double distance,
+                  FunctionRef<void(std::uint32_t triangle, const Facet& facet)> visit) const;
 
  private:
   struct Embree;

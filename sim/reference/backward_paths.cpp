@@ -14,6 +14,7 @@
 #include "detp/sim/photons/photon_walk.hpp"
 #include "detp/sim/photons/scatter.hpp"
 #include "seen_lights.hpp"
+#include "start_places.hpp"
 
 namespace detp::sim {
 namespace {
@@ -35,12 +36,6 @@ class PathNumbers {
   std::uint64_t decision_ = 0;
 };
 
-/// Place on a surface, in the caster's own coordinates.
-struct Place {
-  glm::dvec3 point;
-  std::optional<std::uint32_t> triangle = {};
-};
-
 }  // namespace
 
 struct BackwardPaths::Walk {
@@ -48,16 +43,28 @@ struct BackwardPaths::Walk {
   std::uint64_t seed;
   std::shared_ptr<const RayCaster> caster;
   SeenLights lights;
+  double reach;
 
-  Walk(const Scene& of, std::uint64_t with_seed, const std::stop_token& stop)
-      : scene(of), seed(with_seed), caster(caster_for(of, stop)), lights(of) {}
+  Walk(const Scene& of, std::uint64_t with_seed, std::shared_ptr<const RayCaster> with)
+      : scene(of), seed(with_seed), caster(std::move(with)), lights(of) {
+    reach = PhotonWalk::gap_share * glm::length(of.box.size()) / caster->scale();
+  }
+
+  [[nodiscard]] double irradiance(const std::vector<StartPlace>& places, const Sample& sample, std::uint64_t number,
+                                  std::uint64_t path, bool front) const {
+    PathNumbers numbers(seed, number, path, front);
+    const glm::dvec3 normal = front ? sample.normal : -sample.normal;
+    const StartPlace& place = places[path % places.size()];
+    const double straight = from_light(place, normal, numbers.next());
+    return straight + from_surfaces(place, normal, numbers);
+  }
 
   /// Straight from one light, on the side of the normal.
-  [[nodiscard]] double from_light(const Place& place, const glm::dvec3& normal,
+  [[nodiscard]] double from_light(const StartPlace& place, const glm::dvec3& normal,
                                   const std::array<double, 4>& random) const {
     const SeenLight light = lights.sample(caster->to_scene(place.point), random);
     const double cosine = glm::dot(normal, light.direction);
-    if (!(cosine > 0 && light.irradiance > 0)) return 0;
+    if (!(cosine > least_cosine && light.irradiance > 0)) return 0;
     if (light.triangle && light.triangle == place.triangle) return 0;
     const auto hit = caster->first_intersection(place.point, light.direction, place.triangle);
     constexpr double at_light = 1 - 1e-7;  // of the distance; behind, or on, the light
@@ -69,7 +76,7 @@ struct BackwardPaths::Walk {
   }
 
   /// π L of a direction by the cosine law.
-  [[nodiscard]] double from_surfaces(Place place, const glm::dvec3& normal, PathNumbers& numbers) const {
+  [[nodiscard]] double from_surfaces(StartPlace place, const glm::dvec3& normal, PathNumbers& numbers) const {
     const auto first = numbers.next();
     SeenLights::Look look{.direction = cosine_direction(normal, first[0], first[1])};
     look.density = glm::dot(normal, look.direction) * std::numbers::inv_pi;
@@ -103,19 +110,32 @@ struct BackwardPaths::Walk {
   }
 };
 
-BackwardPaths::BackwardPaths(const Scene& scene, std::uint64_t seed, const std::stop_token& stop) {
+BackwardPaths::BackwardPaths(const Scene& scene, std::uint64_t seed, const std::stop_token& stop)
+    : BackwardPaths(scene, seed, caster_for(scene, stop)) {}
+
+BackwardPaths::BackwardPaths(const Scene& scene, std::uint64_t seed, std::shared_ptr<const RayCaster> caster) {
   const DefaultFloatingPoint mode;
-  walk_ = std::make_unique<const Walk>(scene, seed, stop);
+  walk_ = std::make_unique<const Walk>(scene, seed, std::move(caster));
 }
 
 BackwardPaths::~BackwardPaths() = default;
 
 double BackwardPaths::irradiance(const Sample& sample, std::uint64_t number, std::uint64_t path, bool front) const {
-  PathNumbers numbers(walk_->seed, number, path, front);
-  const glm::dvec3 normal = front ? sample.normal : -sample.normal;
-  const Place place{walk_->caster->to_caster(sample.position)};
-  const double straight = walk_->from_light(place, normal, numbers.next());
-  return straight + walk_->from_surfaces(place, normal, numbers);
+  return walk_->irradiance(start_places(*walk_->caster, sample, walk_->reach), sample, number, path, front);
+}
+
+void BackwardPaths::add(const Sample& sample, std::uint64_t number, std::uint64_t paths, bool front_facing,
+                        PathSums& sums) const {
+  const std::vector<StartPlace> places = start_places(*walk_->caster, sample, walk_->reach);
+  for (; sums.paths < paths; ++sums.paths)
+    for (const bool front : {true, false}) {
+      if (!front && front_facing) continue;
+      const double one = walk_->irradiance(places, sample, number, sums.paths, front);
+      (front ? sums.front : sums.back) += one;
+      (front ? sums.front_squares : sums.back_squares) += one * one;
+      sums.largest = std::max(sums.largest, one);
+      sums.lit += one > 0 ? 1 : 0;
+    }
 }
 
 bool misses_light(const Scene& scene) {
@@ -142,15 +162,7 @@ void add_backward_paths(const BackwardPaths& walk, std::span<const Sample> sampl
     for (std::size_t i = part.begin(); i != part.end(); ++i)
       while (sums[i].paths < paths) {
         if (stop.stop_requested()) return;
-        PathSums more = sums[i];
-        for (std::uint64_t k = 0; k < paths_in_a_round; ++k, ++more.paths)
-          for (const bool front : {true, false}) {
-            if (!front && front_facing) continue;
-            const double one = walk.irradiance(samples[i], i, more.paths, front);
-            (front ? more.front : more.back) += one;
-            (front ? more.front_squares : more.back_squares) += one * one;
-          }
-        sums[i] = more;
+        walk.add(samples[i], i, std::min(paths, sums[i].paths + paths_in_a_round), front_facing, sums[i]);
       }
   });
 }

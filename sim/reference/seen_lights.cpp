@@ -140,7 +140,7 @@ SeenLight SeenLights::seen(const SurfaceLight&, double number, const glm::dvec3&
   SeenLight found = towards(places[a] + u * (places[b] - places[a]) + v * (places[c] - places[a]), point);
   found.triangle = one->triangle;
   const double cosine = -glm::dot(found.direction, one->normal);
-  if (!(found.distance > 0 && cosine > 0)) return found;
+  if (!(found.distance > 0 && cosine > least_cosine)) return found;
   const double probability =
       (one->up_to - (one == emitting_.begin() ? 0 : std::prev(one)->up_to)) / emitting_.back().up_to;
   const double radiance = surface_scale_ * one->radiance;

@@ -9,6 +9,9 @@
 
 namespace detp::sim {
 
+/// Light below this cosine is none: surfaces in the same plane see each other by rounding errors alone.
+inline constexpr double least_cosine = 1e-12;
+
 /// Light that reaches a point straight from a light, unless something is in between.
 struct SeenLight {
   glm::dvec3 direction{0.0};  ///< unit length, from the point to the light

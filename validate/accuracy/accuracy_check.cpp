@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -36,8 +37,14 @@ std::optional<double> error_of(const std::vector<double>& found, const Reference
   if (reference == nullptr) return std::nullopt;
   double square = 0;
   for (std::size_t i = 0; i < found.size(); ++i)
-    square += std::pow(found[i] - reference->irradiance[i], 2) - reference->variance[i];
-  return std::sqrt(std::max(0.0, square / static_cast<double>(found.size()) / mean_square));
+    square +=
+        reference->judged.weights[i] * (std::pow(found[i] - reference->irradiance[i], 2) - reference->variance[i]);
+  return std::sqrt(std::max(0.0, square / mean_square));
+}
+
+JudgedSamples judged_in(const sim::Scene& scene, const AccuracyPilotOptions& options, std::size_t most) {
+  if (options.reference != nullptr) return options.reference->judged;
+  return options.weights.empty() ? judged_samples(scene, most) : judged_samples(scene, options.weights, most);
 }
 
 /// Nothing without a reference.
@@ -53,21 +60,48 @@ std::optional<double> share_within(const std::vector<double>& found, const Refer
 struct TimedEstimate {
   sim::Paths paths;
   std::vector<double> irradiance;  ///< at the judged samples
+  std::vector<double> variance;    ///< of backward paths; else empty
   double trace_seconds = 0;
   double seconds = 0;  ///< with tracing
 };
 
+TimedEstimate timed_gather(const ReplicateMaker& maker, const sim::Scene& scene, const JudgedSamples& judged,
+                           std::uint64_t paths, std::uint64_t seed) {
+  const sim::Stopwatch watch;
+  const std::vector<sim::PathSums> sums = maker.gather(scene.samples, paths, seed);
+  TimedEstimate run{.paths = {}, .irradiance = {}, .variance = {}, .seconds = maker.caster_seconds() + watch.seconds()};
+  for (const std::size_t place : judged.places) {
+    run.irradiance.push_back(sums[place].irradiance());
+    run.variance.push_back(sums[place].variance());
+  }
+  return run;
+}
+
 TimedEstimate timed_estimate(ReplicateMaker& maker, const sim::Scene& scene, const JudgedSamples& judged,
                              const AccuracyPoint& point, std::uint64_t seed) {
+  if (point.estimator == sim::Estimator::gather) return timed_gather(maker, scene, judged, whole_rays(point), seed);
   if (point.radius > 0) maker.decide_overshoot();
   sim::Stopwatch watch;
-  TimedEstimate run{.paths = maker.trace(whole_rays(point), seed, point.radius), .irradiance = {}};
+  TimedEstimate run{.paths = maker.trace(whole_rays(point), seed, point.radius), .irradiance = {}, .variance = {}};
   run.trace_seconds = maker.caster_seconds() + watch.lap();
   const auto all = maker.estimate(run.paths, scene.samples, point.setting()).irradiance;
   run.seconds = run.trace_seconds + watch.lap();
-  run.irradiance = judged.places.empty() ? maker.estimate(run.paths, judged.samples, point.setting()).irradiance
-                                         : judged.of_all(all);
+  run.irradiance = judged.of_all(all);
   return run;
+}
+
+/// Of one run: by the variance of its backward paths, or with the estimate of half of its photons, since the variance of the difference is
+/// that of the whole run.
+double noise_squared(const ReplicateMaker& maker, const JudgedSamples& judged, const AccuracyPoint& point,
+                     const TimedEstimate& whole) {
+  if (!whole.variance.empty())
+    return std::inner_product(judged.weights.begin(), judged.weights.end(), whole.variance.begin(), 0.0);
+  AccuracySetting of_half = point.setting();
+  if (of_half.estimator == sim::Estimator::nearest) of_half.nearest = std::max(3, of_half.nearest / 2);
+  const std::uint64_t photons = std::max<std::uint64_t>(1, whole.paths.photon_count / 2);
+  const double scale = static_cast<double>(whole.paths.photon_count) / static_cast<double>(photons);
+  const auto half = maker.estimate(first_photons(whole.paths, photons), judged.samples, of_half).irradiance;
+  return square_between(whole.irradiance, half, judged.weights, scale) / std::max(1e-9, scale - 1);
 }
 
 /// What a rank makes in a rerun.
@@ -89,7 +123,7 @@ class RerunMaker {
   RerunMaker(sim::Scene& scene, const AccuracyPilotOptions& options)
       : scene_(scene),
         options_(options),
-        judged_(judged_samples(scene, options.reference, most_samples_kept)),
+        judged_(judged_in(scene, options, most_samples_kept)),
         work_([this](const std::string& task) { return json_bytes(make(from_json_bytes<RerunTask>(task))); }),
         farm_(options.ranks != nullptr ? *options.ranks : one_, work_) {}
 
@@ -135,19 +169,12 @@ AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, doub
                              const AccuracyPilotOptions& options, double within) {
   const sim::DefaultFloatingPoint mode;
   ReplicateMaker maker(scene, options.front_facing, options.threads, options.stop);
-  const JudgedSamples judged = judged_samples(scene, options.reference, scene.samples.size());
+  const JudgedSamples judged = judged_in(scene, options, scene.samples.size());
   const TimedEstimate whole = timed_estimate(maker, scene, judged, point, options.seed);
-  // Half of the photons: the variance of the difference is that of the whole run.
-  AccuracySetting of_half = point.setting();
-  if (of_half.estimator == sim::Estimator::nearest) of_half.nearest = std::max(3, of_half.nearest / 2);
-  const std::uint64_t photons = std::max<std::uint64_t>(1, whole.paths.photon_count / 2);
-  const double scale = static_cast<double>(whole.paths.photon_count) / static_cast<double>(photons);
-  const auto half = maker.estimate(first_photons(whole.paths, photons), judged.samples, of_half).irradiance;
-  const double square = square_between(whole.irradiance, half, judged.weights, scale);
-  return {.noise = std::sqrt(square / mean_square / std::max(1e-9, scale - 1)),
+  return {.noise = std::sqrt(noise_squared(maker, judged, point, whole) / mean_square),
           .seconds = whole.seconds,
           .trace_seconds = whole.trace_seconds,
-          .rays = static_cast<double>(whole.paths.rays.size()),
+          .rays = point.estimator == sim::Estimator::gather ? point.rays : static_cast<double>(whole.paths.rays.size()),
           .error = error_of(whole.irradiance, options.reference, mean_square),
           .share_within = share_within(whole.irradiance, options.reference, within * std::sqrt(mean_square))};
 }

@@ -6,94 +6,61 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/photons/light_notes.hpp"
-#include "judged_samples.hpp"
 
 namespace detp::validate {
 namespace {
 
-constexpr std::size_t runs = 6;             // of each setting
-constexpr std::size_t most_samples = 2000;  // of the runs; times are taken with all
+constexpr std::size_t runs = 8;               // of each setting
+constexpr std::size_t samples_judged = 1000;  // of the runs; times are taken with all
 constexpr std::array radii_over_distance{0.25, 0.5, 1.0, 2.0};
 constexpr std::array nearest_of_run{5, 10, 20, 40};  // k in a run of the pilot
-constexpr double fewest_near = 2;                    // photons within the reference's radius, on average
-
-using Runs = std::vector<std::vector<double>>;
-
-double squared(double x) { return x * x; }
-
-/// Weighted sums over the samples of all runs but number `without`.
-struct Sums {
-  double noise = 0;   ///< Σ w s²
-  double square = 0;  ///< Σ w (m² - s²/R)
-};
-
-Sums sums_of(const Runs& all, const std::vector<double>& weights, std::size_t without) {
-  Sums sums;
-  const auto count = static_cast<double>(all.size() - (without < all.size() ? 1 : 0));
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    double mean = 0;
-    for (std::size_t r = 0; r < all.size(); ++r) mean += r == without ? 0 : all[r][i] / count;
-    double squares = 0;
-    for (std::size_t r = 0; r < all.size(); ++r) squares += r == without ? 0 : squared(all[r][i] - mean);
-    const double variance = squares / (count - 1);
-    sums.noise += weights[i] * variance;
-    sums.square += weights[i] * (mean * mean - variance / count);
-  }
-  return sums;
-}
-
-/// With the standard error of the jackknife over the runs.
-Estimate jackknife(const Runs& all, const std::vector<double>& weights, double Sums::*value) {
-  const auto count = static_cast<double>(all.size());
-  std::vector<double> left_out;
-  for (std::size_t r = 0; r < all.size(); ++r) left_out.push_back(sums_of(all, weights, r).*value);
-  double mean = 0;
-  for (const double one : left_out) mean += one / count;
-  double squares = 0;
-  for (const double one : left_out) squares += squared(one - mean);
-  return {sums_of(all, weights, all.size()).*value, std::sqrt((count - 1) / count * squares)};
-}
+constexpr int batches_of_missed_light = 8;
 
 Estimate scaled(const Estimate& one, double factor) { return {one.mean * factor, one.standard_error * factor}; }
 
-Runs difference(const Runs& one, const Runs& other) {
-  Runs all = one;
-  for (std::size_t r = 0; r < all.size(); ++r)
-    for (std::size_t i = 0; i < all[r].size(); ++i) all[r][i] -= other[r][i];
-  return all;
-}
+}  // namespace
 
-class PilotMaker {
+/// The runs of one pilot.
+class PilotMaker::Runs {
  public:
-  PilotMaker(sim::Scene& scene, const AccuracyPilotOptions& options)
-      : scene_(scene),
-        options_(options),
-        maker_(scene, options.front_facing, options.threads, options.stop),
-        judged_(judged_samples(scene, options.reference, most_samples)) {
-    pilot_.sample_distance = sim::mean_edge_length(scene.mesh, options.stop);
+  Runs(PilotMaker& of, double rays, const AccuracyPilot* before) : of_(of), options_(of.options_), before_(before) {
+    pilot_.sample_distance = sim::mean_edge_length(of.scene_.mesh, options_.stop);
     if (!(pilot_.sample_distance > 0))
-      throw std::invalid_argument("accuracy needs a mesh with triangles; " + scene.name + " has none with edges");
-    radii_ = options.radii;
+      throw std::invalid_argument("accuracy needs a mesh with triangles; " + of.scene_.name + " has none with edges");
+    radii_ = options_.radii;
     if (radii_.empty())
       for (const double share : radii_over_distance) radii_.push_back(share * pilot_.sample_distance);
-    rays_of_run_ = std::max<std::size_t>(
-        200, static_cast<std::size_t>((options.rays > 0 ? options.rays : usual_pilot_rays) / runs));
-    const auto all = [&](sim::Estimator one) {
-      return options.estimators.empty() || std::ranges::find(options.estimators, one) != options.estimators.end();
+    rays_of_run_ = std::max<std::size_t>(200, static_cast<std::size_t>(rays / runs));
+    for (std::size_t place : of.judged_.places)
+      if (!options_.relative.empty()) relative_.push_back(options_.relative[place]);
+    const auto wanted = [&](sim::Estimator one) {
+      return options_.estimators.empty() || std::ranges::find(options_.estimators, one) != options_.estimators.end();
     };
     for (const sim::EstimatorRecord& record : sim::estimators)
-      if (all(record.estimator)) pilot_.estimators.push_back(with_settings(record.estimator));
+      if (wanted(record.estimator)) pilot_.estimators.push_back(with_settings(record.estimator));
   }
 
-  AccuracyPilot make() && {
+  /// `reference`: the truth; `by_paths`: what gather finds.
+  AccuracyPilot make(const Reference& reference, const Reference& by_paths) && {
+    pilot_.mean_square = reference.mean_square();
+    report("pilot: tracing");
     trace();
-    const Runs reference = options_.reference != nullptr ? given_reference() : reference_runs();
-    for (EstimatorPilot& one : pilot_.estimators) measure(one, reference);
+    if (!(pilot_.mean_square > 0)) throw NoLight(without_light());
+    report("pilot: estimators");
+    for (EstimatorPilot& one : pilot_.estimators)
+      if (one.estimator != sim::Estimator::gather) measure(one, reference);
+    const auto by_photons = [](const EstimatorPilot& one) { return one.estimator != sim::Estimator::gather; };
+    if (!met_ && std::ranges::any_of(pilot_.estimators, by_photons)) throw NoLight(without_light());
+    for (EstimatorPilot& one : pilot_.estimators)
+      if (one.estimator == sim::Estimator::gather) measure_gather(one, by_paths);
     pilot_.rays = static_cast<double>(runs * rays_of_run_);
+    pilot_.judge = {reference.kind,    reference.paths,   reference.photons,    reference.judged.samples.size(),
+                    reference.error(), reference.seconds, reference.missed_mean};
     pilot_.seconds = watch_.seconds();
     return std::move(pilot_);
   }
@@ -101,20 +68,19 @@ class PilotMaker {
  private:
   [[nodiscard]] EstimatorPilot with_settings(sim::Estimator estimator) const {
     EstimatorPilot pilot{.estimator = estimator, .settings = {}};
-    if (uses_radius(estimator)) {
-      for (const double radius : radii_)
-        pilot.settings.push_back(
-            {.setting = {estimator, radius}, .scale = radius, .noise_squared_times_rays = {}, .bias_squared = {}});
-    } else if (estimator == sim::Estimator::nearest) {
+    const auto add = [&](const AccuracySetting& setting, double scale) {
+      SettingPilot one;
+      one.setting = setting;
+      one.scale = scale;
+      pilot.settings.push_back(one);
+    };
+    if (uses_radius(estimator))
+      for (const double radius : radii_) add({estimator, radius}, radius);
+    else if (estimator == sim::Estimator::nearest)
       for (const int k : nearest_of_run)
-        pilot.settings.push_back({.setting = {.estimator = estimator, .nearest = k},
-                                  .scale = k / static_cast<double>(rays_of_run_),
-                                  .noise_squared_times_rays = {},
-                                  .bias_squared = {}});
-    } else {
-      pilot.settings.push_back(
-          {.setting = {.estimator = estimator}, .noise_squared_times_rays = {}, .bias_squared = {}});
-    }
+        add({.estimator = estimator, .nearest = k}, k / static_cast<double>(rays_of_run_));
+    else
+      add({.estimator = estimator}, 1);
     return pilot;
   }
 
@@ -124,24 +90,24 @@ class PilotMaker {
 
   /// Makes the paths of all runs; a longer run measures the time.
   void trace() {
-    report("pilot: tracing");
     double photons = 0;
     double seconds = 0;
-    maker_.decide_overshoot();
+    ReplicateMaker& maker = of_.maker_;
+    maker.decide_overshoot();
     for (std::size_t run = 0; run < runs; ++run) {
       sim::Stopwatch watch;
-      sim::TracedPaths traced = maker_.trace(rays_of_run_, seed(run), pilot_.sample_distance);
+      sim::TracedPaths traced = maker.trace(rays_of_run_, seed(run), radii_.back());
       seconds += watch.seconds() / runs;
       pilot_.light += traced.light;
       paths_.push_back(std::move(traced));
       photons += static_cast<double>(paths_.back().photon_count);
     }
     sim::Stopwatch watch;
-    sim::TracedPaths longer = maker_.trace(4 * rays_of_run_, seed(runs), pilot_.sample_distance);
+    sim::TracedPaths longer = maker.trace(4 * rays_of_run_, seed(runs), radii_.back());
     set_times(seconds, watch.seconds(), pilot_.trace_fixed_seconds, pilot_.trace_seconds_per_ray);
     pilot_.light += longer.light;
     long_paths_ = std::move(longer);
-    pilot_.trace_fixed_seconds += maker_.caster_seconds();
+    pilot_.trace_fixed_seconds += maker.caster_seconds();
     pilot_.photons_per_ray = photons / static_cast<double>(runs * rays_of_run_);
   }
 
@@ -156,130 +122,160 @@ class PilotMaker {
     fixed = std::max(0.0, with_one - per_ray * n);
   }
 
-  Runs runs_of(const AccuracySetting& setting) const {
-    Runs all;
-    for (const sim::Paths& paths : paths_) all.push_back(maker_.estimate(paths, judged_.samples, setting).irradiance);
+  [[nodiscard]] std::vector<std::vector<double>> runs_of(const AccuracySetting& setting) {
+    const double overshoot = of_.maker_.overshoot(uses_radius(setting.estimator) ? setting.radius : 0);
+    std::vector<std::vector<double>> all;
+    for (const sim::Paths& paths : paths_) {
+      const std::vector<sim::Ray> rays = with_overshoot(paths, of_.scene_, overshoot);
+      sim::PathRays same = paths;
+      same.rays = rays;
+      all.push_back(of_.maker_.estimate(same, of_.judged_.samples, setting, false, relative_).irradiance);
+    }
     return all;
   }
 
-  /// Photons that count for a sample, on average over the samples by area, in all runs together.
-  [[nodiscard]] double photons_near(const AccuracySetting& setting) const {
-    const sim::Outcome outcome = maker_.estimate(paths_.front(), judged_.samples, setting);
-    double sum = 0;
-    for (std::size_t i = 0; i < judged_.weights.size(); ++i)
-      sum += judged_.weights[i] * static_cast<double>(outcome.hits[i]);
-    return runs * sum;
-  }
-
-  /// Chooses the reference's radius, and finds its own bias.
-  Runs reference_runs() {
-    report("pilot: reference");
-    using enum sim::Estimator;
-    const double distance = pilot_.sample_distance;
-    pilot_.reference_radius = 0.5 * distance;
-    if (photons_near({area_corrected, pilot_.reference_radius}) < fewest_near) pilot_.reference_radius = distance;
-    Runs reference = runs_of({area_corrected, pilot_.reference_radius});
-    const Runs wider = runs_of({area_corrected, 2 * pilot_.reference_radius});
-    own_bias_ = jackknife(difference(wider, reference), judged_.weights, &Sums::square);
-    own_bias_ = scaled(own_bias_, 1.0 / 3);
-    own_bias_ = {std::max(0.0, own_bias_.mean), std::hypot(own_bias_.standard_error, std::max(0.0, own_bias_.mean))};
-    const Estimate mean_square = jackknife(reference, judged_.weights, &Sums::square);
-    pilot_.mean_square = mean_square.mean;
-    if (!(mean_square.mean > 2 * mean_square.standard_error)) throw NoLight(without_light());
-    return reference;
-  }
-
   [[nodiscard]] std::string without_light() const {
-    const std::vector<std::string> reasons = sim::light_warnings(pilot_.light, scene_.lights);
+    const std::vector<std::string> reasons = sim::light_warnings(pilot_.light, of_.scene_.lights);
     return fmt::format("the pilot's {} photons hardly meet the samples of {}: {}", pilot_.light.all_photons(),
-                       scene_.name, reasons.empty() ? "do samples lie where the light is?" : reasons.front());
+                       of_.scene_.name, reasons.empty() ? "do samples lie where the light is?" : reasons.front());
   }
 
-  /// The same values for each run. Their variance is what `own_bias_` subtracts.
-  Runs given_reference() {
-    const Reference& reference = *options_.reference;
-    const auto count = static_cast<double>(reference.samples.size());
+  [[nodiscard]] const EstimatorPilot* earlier(sim::Estimator estimator) const {
+    if (before_ == nullptr) return nullptr;
+    const auto found = std::ranges::find(before_->estimators, estimator, &EstimatorPilot::estimator);
+    return found == before_->estimators.end() ? nullptr : &*found;
+  }
+  /// The earlier pilot of an estimator that is settled at all settings; else null.
+  [[nodiscard]] const EstimatorPilot* settled_whole(sim::Estimator estimator) const {
+    const EstimatorPilot* one = earlier(estimator);
+    return one != nullptr && std::ranges::all_of(one->settings, &SettingPilot::settled) ? one : nullptr;
+  }
+  /// The earlier pilot, if its settings are those of this one; else null.
+  [[nodiscard]] const EstimatorPilot* settled_part(const EstimatorPilot& one) const {
+    return uses_radius(one.estimator) ? earlier(one.estimator) : nullptr;
+  }
+
+  void measure(EstimatorPilot& one, const Reference& reference) {
+    if (const EstimatorPilot* all = settled_whole(one.estimator)) {
+      one = *all;
+      met_ = true;
+      return;
+    }
     double variance = 0;
-    double variance_squares = 0;
-    double squares = 0;
-    for (std::size_t i = 0; i < reference.samples.size(); ++i) {
-      variance += reference.variance[i] / count;
-      variance_squares += squared(reference.variance[i] / count);
-      squares += squared(reference.irradiance[i]) / count;
-    }
-    pilot_.mean_square = squares - variance;
-    if (!(pilot_.mean_square > 0)) throw NoLight("no light reaches the samples of the reference of " + scene_.name);
-    own_bias_ = {-variance, std::sqrt(2 * variance_squares)};
-    return Runs(runs, reference.irradiance);
-  }
-
-  /// Variance of Σ w (m - b)² because of the reference: 4 Σ w² (m - b)² v. Without a given reference it is in the jackknife.
-  [[nodiscard]] double error_by_reference(const Runs& away) const {
-    if (options_.reference == nullptr) return 0;
-    double sum = 0;
-    for (std::size_t i = 0; i < judged_.weights.size(); ++i) {
-      double mean = 0;
-      for (const auto& run : away) mean += run[i] / static_cast<double>(away.size());
-      sum += 4 * squared(judged_.weights[i] * mean) * options_.reference->variance[i];
-    }
-    return std::sqrt(sum);
-  }
-
-  void measure(EstimatorPilot& one, const Runs& reference) {
-    report("pilot: estimators");
-    for (SettingPilot& setting : one.settings) {
+    double by_reference = 0;
+    const EstimatorPilot* earlier = settled_part(one);
+    for (std::size_t i = 0; i < one.settings.size(); ++i) {
+      SettingPilot& setting = one.settings[i];
+      if (earlier != nullptr && earlier->settings[i].settled) {
+        setting = earlier->settings[i];
+        setting.seconds *= static_cast<double>(rays_of_run_) / earlier->rays_of_run;
+        continue;
+      }
       sim::Stopwatch watch;
-      const Runs found = runs_of(setting.setting);
+      const auto found = runs_of(setting.setting);
       setting.seconds = watch.seconds() / runs;
-      const double square = pilot_.mean_square;
-      setting.noise_squared_times_rays =
-          scaled(jackknife(found, judged_.weights, &Sums::noise), static_cast<double>(rays_of_run_) / square);
-      const Runs away = difference(found, reference);
-      const Estimate bias = jackknife(away, judged_.weights, &Sums::square);
-      setting.bias_squared =
-          scaled({bias.mean + own_bias_.mean,
-                  std::hypot(bias.standard_error, own_bias_.standard_error, error_by_reference(away))},
-                 1 / square);
+      for (const auto& run : found) met_ = met_ || std::ranges::any_of(run, [](double one) { return one > 0; });
+      const ErrorSplit split = split_error(found, reference.values());
+      setting.noise_squared_times_rays = scaled(split.noise_squared, static_cast<double>(rays_of_run_));
+      setting.bias_squared = split.bias_squared;
+      setting.mean_bias = split.mean_bias;
+      variance += std::pow(split.bias_squared.standard_error, 2);
+      by_reference += split.by_reference;
     }
+    one.by_reference = variance > 0 ? by_reference / variance : 0;
     set_seconds(one);
-    one.surface_seconds = maker_.surface_seconds(one.estimator);
+    one.surface_seconds = of_.maker_.surface_seconds(one.estimator);
+  }
+
+  /// Rays are backward paths of one sample, on each side.
+  void measure_gather(EstimatorPilot& one, const Reference& reference) const {
+    SettingPilot& setting = one.settings.front();
+    const auto paths = static_cast<double>(std::max<std::uint64_t>(1, reference.paths));
+    const auto samples = static_cast<double>(of_.scene_.samples.size());
+    const double noise = reference.path_noise_squared;
+    const auto judged = static_cast<double>(of_.judged_.samples.size());
+    // noise_squared_error: of its mean at the judged samples, and of one run at all samples
+    const double error = std::sqrt((2 / judged + 2 / samples) / static_cast<double>(runs + 1));
+    setting.noise_squared_times_rays = {noise, noise * error};
+    setting.bias_squared = reference.missed_squared;
+    setting.mean_bias = {-reference.missed_mean, 0};
+    setting.seconds = reference.seconds_of_path * samples * paths;
+    one.rays_of_run = paths;
+    one.runs = runs;
+    one.surface_seconds = of_.maker_.caster_seconds();
   }
 
   /// Times with all samples: those of the middle setting with n and with 4n rays; the others in proportion to the times of the runs.
   void set_seconds(EstimatorPilot& one) const {
-    const SettingPilot& middle = one.settings[one.settings.size() / 2];
-    sim::Stopwatch watch;
-    static_cast<void>(maker_.estimate(paths_.front(), scene_.samples, middle.setting));
-    const double with_one = watch.lap();
-    static_cast<void>(maker_.estimate(long_paths_, scene_.samples, middle.setting));
+    std::vector<const SettingPilot*> timed;
+    for (const SettingPilot& setting : one.settings)
+      if (!setting.settled) timed.push_back(&setting);
+    const SettingPilot& middle = *timed[timed.size() / 2];
+    const auto time = [&](const sim::Paths& paths) {
+      sim::Stopwatch watch;
+      static_cast<void>(of_.maker_.estimate(paths, of_.scene_.samples, middle.setting, false, options_.relative));
+      return watch.seconds();
+    };
+    const double with_one = time(paths_.front());
     double fixed = 0;
     double per_ray = 0;
-    set_times(with_one, watch.lap(), fixed, per_ray);
+    set_times(with_one, time(long_paths_), fixed, per_ray);
     one.rays_of_run = static_cast<double>(rays_of_run_);
     one.runs = runs;
     one.fixed_share = std::clamp(fixed / with_one, 0.0, 1.0);
     const double scale = with_one / middle.seconds;
-    for (SettingPilot& setting : one.settings) setting.seconds *= scale;
+    for (SettingPilot& setting : one.settings)
+      if (!setting.settled) setting.seconds *= scale;
   }
 
-  sim::Scene& scene_;
+  PilotMaker& of_;
   const AccuracyPilotOptions& options_;
+  const AccuracyPilot* before_;
   sim::Stopwatch watch_;
-  ReplicateMaker maker_;
-  JudgedSamples judged_;
   AccuracyPilot pilot_;
   std::vector<double> radii_;
+  std::vector<double> relative_;
   std::size_t rays_of_run_ = 0;
   std::vector<sim::Paths> paths_;
   sim::Paths long_paths_;
-  Estimate own_bias_;  ///< squared bias of what the estimates are compared with; below 0: its variance
+  bool met_ = false;  ///< some photon met some sample
 };
 
-}  // namespace
+PilotMaker::PilotMaker(sim::Scene& scene, AccuracyPilotOptions options)
+    : scene_(scene),
+      options_(std::move(options)),
+      maker_(scene, options_.front_facing, options_.threads, options_.stop) {
+  judged_ = options_.reference != nullptr ? options_.reference->judged
+            : options_.weights.empty()    ? judged_samples(scene, samples_judged)
+                                          : judged_samples(scene, options_.weights, samples_judged);
+  const ReferenceOptions judge{
+      .seed = options_.seed, .front_facing = options_.front_facing, .threads = options_.threads, .stop = options_.stop};
+  judge_.emplace(scene, judged_, judge, maker_.caster());
+}
+
+PilotMaker::~PilotMaker() = default;
+
+std::uint64_t PilotMaker::first_paths() const {
+  constexpr std::uint64_t of_all = 64 * samples_judged;
+  return options_.paths > 0 ? options_.paths : of_all / judged_.samples.size();
+}
+
+AccuracyPilot PilotMaker::make(double rays, std::uint64_t paths, const AccuracyPilot* before) {
+  const sim::DefaultFloatingPoint mode;
+  const sim::Stopwatch watch;
+  Runs all(*this, rays, before);
+  if (options_.progress) options_.progress({"pilot: backward paths", 0, 1});
+  judge_->add_paths(paths);
+  judge_->add_photons(static_cast<std::size_t>(rays / batches_of_missed_light), batches_of_missed_light);
+  const Reference& by_paths = judge_->reference();
+  AccuracyPilot pilot = std::move(all).make(options_.reference != nullptr ? *options_.reference : by_paths, by_paths);
+  pilot.seconds = watch.seconds();
+  return pilot;
+}
 
 AccuracyPilot make_accuracy_pilot(sim::Scene& scene, const AccuracyPilotOptions& options) {
-  const sim::DefaultFloatingPoint mode;
-  return PilotMaker(scene, options).make();
+  PilotMaker maker(scene, options);
+  return maker.make(options.rays > 0 ? options.rays : usual_pilot_rays, maker.first_paths());
 }
 
 }  // namespace detp::validate

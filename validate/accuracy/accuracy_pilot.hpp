@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <stop_token>
 #include <vector>
@@ -18,11 +20,13 @@ namespace detp::validate {
 /// One setting of an estimator.
 struct SettingPilot {
   AccuracySetting setting;
-  /// What the setting is: the radius; of nearest, k over the number of pieces of paths; 1 for triangle hits, which have no setting.
+  /// What the setting is: the radius; of nearest, k over the number of pieces of paths; 1 for those without a setting.
   double scale = 1;
   Estimate noise_squared_times_rays;  ///< noise² falls with the number of rays as 1/rays
   Estimate bias_squared;              ///< does not; may be below 0
+  Estimate mean_bias;                 ///< signed, relative to the mean irradiance
   double seconds = 0;                 ///< of an estimate at all samples with the rays of one run of the pilot
+  bool settled = false;               ///< known well enough: a further pilot leaves it as it is
 };
 
 struct EstimatorPilot {
@@ -33,15 +37,17 @@ struct EstimatorPilot {
   double fixed_share = 0;
   double rays_of_run = 1;
   std::size_t runs = 2;        ///< of each setting
+  double by_reference = 0;     ///< share of the judge in the variance of the settings' bias²
   double surface_seconds = 0;  ///< for building what the estimator needs of the mesh
 
-  /// noise² with so many rays, and bias²; both interpolated between the settings, linearly in logarithms (bias² that is not known to
+  /// noise² with so many rays, bias², and the mean bias; interpolated between the settings, linearly in logarithms (bias² that is not known to
   /// be above 0: linearly in the logarithm of the scale). Scales outside of the settings are those of the nearest one.
   [[nodiscard]] double noise_squared(double scale, double rays) const;
   /// Relative standard error of noise² when it is compared with the square error of one other run: of its mean in the pilot, and the
   /// spread of single runs.
   [[nodiscard]] double noise_squared_error(double scale) const;
   [[nodiscard]] Estimate bias_squared(double scale) const;
+  [[nodiscard]] Estimate mean_bias(double scale) const;
   /// Of an estimate with so many rays, at all samples, without tracing: seconds_fixed + rays · seconds_per_ray.
   [[nodiscard]] double fixed_seconds(double scale) const {
     return surface_seconds + fixed_share * seconds_of_run(scale);
@@ -54,14 +60,25 @@ struct EstimatorPilot {
   [[nodiscard]] double seconds_of_run(double scale) const;
 };
 
+/// By what bias was judged.
+struct PilotJudge {
+  ReferenceKind kind = ReferenceKind::backward;
+  std::uint64_t paths = 0;    ///< backward paths of each sample, on each side
+  std::uint64_t photons = 0;  ///< for the light that these miss
+  std::size_t samples = 0;
+  double error = 0;  ///< Reference::error
+  double seconds = 0;
+  double missed_mean = 0;  ///< Reference::missed_mean
+};
+
 struct AccuracyPilot {
   std::vector<EstimatorPilot> estimators;
   double trace_fixed_seconds = 0;
   double trace_seconds_per_ray = 0;
   double photons_per_ray = 0;
-  double mean_square = 0;       ///< B²
-  double sample_distance = 0;   ///< mean edge of the mesh, scene units
-  double reference_radius = 0;  ///< of the area-corrected estimates with which all are compared; 0: with a Reference
+  double mean_square = 0;      ///< B²
+  double sample_distance = 0;  ///< mean edge of the mesh, scene units
+  PilotJudge judge = {};
   double rays = 0;              ///< of all runs together
   double seconds = 0;           ///< that the pilot took
   sim::LightLedger light = {};  ///< of its photons
@@ -76,10 +93,13 @@ inline constexpr double usual_pilot_rays = 40'000;
 struct AccuracyPilotOptions {
   std::vector<sim::Estimator> estimators;  ///< empty: all
   double rays = 0;                         ///< of all runs of the pilot together; 0: usual_pilot_rays
-  std::vector<double> radii = {};          ///< of discs, rising; empty: from a quarter to twice the mean edge
-  /// The irradiance to compare with, if it is known better than from the pilot itself. It must outlive the pilot.
-  const Reference* reference = nullptr;
-  double price = 2;  ///< pilots may together take so many times as long as the answer that they find, and always 1.5 s
+  std::uint64_t paths = 0;         ///< of the judge, for each sample, on each side; 0: 64000 for all samples together
+  std::vector<double> radii = {};  ///< of discs, rising; empty: from a quarter to twice the mean edge
+  std::span<const double> relative = {};  ///< radii of the scene's samples over those; none: 1
+  std::span<const double> weights = {};   ///< of the scene's samples, with sum 1; none: by area
+  const Reference* reference = nullptr;   ///< the judge, if it was made before; it must outlive the pilot
+  double price = 2;          ///< pilots may together take so many times as long as the answer that they find
+  double least_price = 1.5;  ///< seconds that they may always take
   bool front_facing = false;
   std::uint64_t seed = 1;
   int threads = 0;
@@ -93,18 +113,31 @@ struct NoLight : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// Radii are h/4, h/2, h and 2h, h the mean edge of the triangles, unless others are given. Six runs of independent photons at up to 2000 of the scene's samples, weighted
-/// by the area around each:
-///
-///     noise² = Σ w_i s_i²/B²           bias² = Σ w_i (y_i² - s²_{y,i}/6)/B² + β²        y: estimate - reference of the same run
-///
-/// The reference is the area-corrected estimate of radius h/2, or with few photons h: it loses no light at edges. β² is its own squared
-/// bias, taken for a third of its squared difference from that of twice the radius: between that of a bias which grows as the
-/// radius and one which grows as its square. No long run is needed, but a bias that all estimators share is not seen. With
-/// AccuracyPilotOptions::reference, runs are at its samples, and bias² as in split_error. Standard errors by the jackknife over the
-/// runs.
-///
-/// Throws std::invalid_argument for a scene without triangles or lights; NoLight; sim::Stopped on a stop request.
+/// Makes pilots in a scene, each with more rays or backward paths than the one before. The judge's paths add up.
+class PilotMaker {
+ public:
+  /// The scene must outlive this. Throws std::invalid_argument for a scene without triangles or lights.
+  PilotMaker(sim::Scene& scene, AccuracyPilotOptions options);
+  ~PilotMaker();
+
+  /// Radii are h/4, h/2, h and 2h, h the mean edge of the triangles, unless others are given. Eight runs of independent photons at up to
+  /// 1000 of the scene's samples; errors and their intervals as in split_error, against backward paths (Reference), which share nothing
+  /// with the estimators. The estimator `gather` is judged by the variance of these paths; its bias is the light that they miss. Settings that an earlier pilot `before` has settled are
+  /// its own. Throws NoLight; sim::Stopped on a stop request.
+  [[nodiscard]] AccuracyPilot make(double rays, std::uint64_t paths, const AccuracyPilot* before = nullptr);
+  /// Paths of each sample for a first pilot.
+  [[nodiscard]] std::uint64_t first_paths() const;
+
+ private:
+  class Runs;
+  sim::Scene& scene_;
+  AccuracyPilotOptions options_;
+  ReplicateMaker maker_;
+  std::optional<ReferenceMaker> judge_;
+  JudgedSamples judged_;
+};
+
+/// One pilot, with the options' rays and paths.
 [[nodiscard]] AccuracyPilot make_accuracy_pilot(sim::Scene& scene, const AccuracyPilotOptions& options);
 
 }  // namespace detp::validate

@@ -1,8 +1,11 @@
 #include "accuracy_plan.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/sim/base/stopped.hpp"
@@ -12,7 +15,6 @@ namespace detp::validate {
 namespace {
 
 constexpr int scales_tried = 49;
-constexpr double interval = 1.96;
 constexpr double share_for_bias = 0.98;  // a total target leaves at least 2 % of its square to noise
 
 double square_of(double x) { return x * x; }
@@ -32,11 +34,12 @@ class Ways {
   }
 
   [[nodiscard]] AccuracyPoint at(double scale, double rays) const {
-    rays = std::clamp(std::ceil(rays), 1.0, most_rays_);
+    rays = std::clamp(std::ceil(rays), gathers() ? 2.0 : 1.0, most_rays_);
     const Estimate bias = own_.bias_squared(scale);
     const double noise_squared = own_.noise_squared(scale, rays);
     const bool radius = uses_radius(own_.estimator);
-    AccuracyPoint point{.estimator = own_.estimator, .rays = rays, .photons = rays * pilot_.photons_per_ray};
+    AccuracyPoint point{
+        .estimator = own_.estimator, .rays = rays, .photons = gathers() ? 0 : rays * pilot_.photons_per_ray};
     if (radius) point.radius = scale;
     if (own_.estimator == sim::Estimator::nearest)
       point.nearest = static_cast<int>(std::clamp(std::round(scale * rays), 3.0, 1e9));
@@ -45,19 +48,23 @@ class Ways {
     point.noise_low = point.noise / wide;
     point.noise_high = point.noise * wide;
     point.bias = root(bias.mean);
-    point.bias_high = root(bias.mean + interval * bias.standard_error);
+    point.bias_low = root(bias.mean - spread_ * bias.standard_error);
+    point.bias_high = root(bias.mean + spread_ * bias.standard_error);
+    const Estimate mean_bias = own_.mean_bias(scale);
+    point.mean_bias = mean_bias.mean;
+    point.mean_bias_error = mean_bias.standard_error;
     const auto bias_squared = [&](double shift) { return std::max(0.0, bias.mean + shift * bias.standard_error); };
     const double square = noise_squared + bias_squared(0);
     const double down =
-        std::hypot(noise_squared - square_of(point.noise_low), bias_squared(0) - bias_squared(-interval));
-    const double up = std::hypot(square_of(point.noise_high) - noise_squared, bias_squared(interval) - bias_squared(0));
+        std::hypot(noise_squared - square_of(point.noise_low), bias_squared(0) - bias_squared(-spread_));
+    const double up = std::hypot(square_of(point.noise_high) - noise_squared, bias_squared(spread_) - bias_squared(0));
     point.total = root(square);
     point.total_low = root(square - down);
     point.total_high = root(square + up);
-    point.trace_seconds = pilot_.trace_seconds(rays);
+    point.trace_seconds = gathers() ? 0 : pilot_.trace_seconds(rays);
     point.seconds = point.trace_seconds + own_.fixed_seconds(scale) + own_.seconds_per_ray(scale) * rays;
     // The noise's share of total² is that of d ln total / d ln rays = -1/2 noise²/total².
-    const double seconds_slope = (pilot_.trace_seconds_per_ray + own_.seconds_per_ray(scale)) * rays / point.seconds;
+    const double seconds_slope = per_ray(scale) * rays / point.seconds;
     const auto slope = [&](double noise, double total) {
       return -0.5 * std::min(1.0, square_of(noise / total)) / seconds_slope;
     };
@@ -77,11 +84,11 @@ class Ways {
       case AccuracyTarget::Kind::seconds:
         break;
     }
-    return most_accurate([&](double scale) { return rays_in(scale, target.value); });
+    return best_in(target.value);
   }
 
-  [[nodiscard]] AccuracyPoint best_with(double rays) const {
-    return *most_accurate([&](double) { return rays; });
+  [[nodiscard]] AccuracyPoint best_in(double seconds) const {
+    return *most_accurate([&](double scale) { return rays_in(scale, seconds); });
   }
 
   [[nodiscard]] double least_bias() const { return root(own_.bias_squared(least_biased()).mean); }
@@ -99,10 +106,16 @@ class Ways {
     return *std::ranges::min_element(scales_, {}, [&](double scale) { return own_.bias_squared(scale).mean; });
   }
 
+  [[nodiscard]] bool gathers() const { return own_.estimator == sim::Estimator::gather; }
+
+  [[nodiscard]] double per_ray(double scale) const {
+    return (gathers() ? 0 : pilot_.trace_seconds_per_ray) + own_.seconds_per_ray(scale);
+  }
+
   /// Rays that the time allows.
   [[nodiscard]] double rays_in(double scale, double seconds) const {
-    const double per_ray = pilot_.trace_seconds_per_ray + own_.seconds_per_ray(scale);
-    return std::max(1.0, (seconds - pilot_.trace_fixed_seconds - own_.fixed_seconds(scale)) / per_ray);
+    const double fixed = (gathers() ? 0 : pilot_.trace_fixed_seconds) + own_.fixed_seconds(scale);
+    return std::max(1.0, (seconds - fixed) / per_ray(scale));
   }
 
   [[nodiscard]] std::optional<AccuracyPoint> reach_noise(double noise) const {
@@ -151,6 +164,15 @@ class Ways {
   std::vector<double> scales_;
 };
 
+/// A bound of the light that gather misses, if it is above a tenth of the target; of a time nothing.
+std::optional<double> missed_too_much(const EstimatorPilot& own, const AccuracyTarget& target) {
+  constexpr double tolerated = 0.1;
+  if (own.estimator != sim::Estimator::gather || target.kind == AccuracyTarget::Kind::seconds) return std::nullopt;
+  const Estimate& missed = own.settings.front().bias_squared;
+  const double bound = root(missed.mean + interval_width(0.05, 1, static_cast<int>(own.runs)) * missed.standard_error);
+  return bound > tolerated * target.value ? std::optional(bound) : std::nullopt;
+}
+
 void mark_frontier(std::vector<AccuracyPoint>& points) {
   for (AccuracyPoint& one : points)
     one.on_frontier = std::ranges::none_of(points, [&](const AccuracyPoint& other) {
@@ -175,8 +197,17 @@ AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& tar
   std::vector<AccuracyPoint> reached;
   std::vector<AccuracyPoint> nearest;  // to the target, of those that do not reach it
   plan.floor = std::numeric_limits<double>::infinity();
-  for (const EstimatorPilot& own : pilot.estimators) {
-    const Ways ways(pilot, own, most_rays);
+  std::vector<const EstimatorPilot*> allowed;
+  for (const EstimatorPilot& own : pilot.estimators)
+    if (const auto misses = missed_too_much(own, target))
+      plan.gather_misses = misses;
+    else
+      allowed.push_back(&own);
+  if (allowed.empty())
+    throw std::invalid_argument(
+        fmt::format("gather misses up to {:.2g} % of the light here", 100 * *plan.gather_misses));
+  for (const EstimatorPilot* own : allowed) {
+    const Ways ways(pilot, *own, most_rays);
     plan.floor = std::min(plan.floor, ways.least_bias());
     if (const auto point = ways.reach(target))
       reached.push_back(*point);
@@ -198,57 +229,96 @@ AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& tar
   plan.answer = best.front();
   plan.rivals.assign(best.begin() + 1, best.end());
   if (plan.reached) plan.rivals.insert(plan.rivals.end(), nearest.begin(), nearest.end());
-  for (const EstimatorPilot& own : pilot.estimators) {
-    const Ways ways(pilot, own, most_rays);
+  for (const EstimatorPilot* own : allowed) {
+    const Ways ways(pilot, *own, most_rays);
     for (int step = -3; step <= 3; ++step) {
-      const double rays = plan.answer.rays * std::pow(4.0, step);
-      if (rays >= 1000 && rays <= most_rays) plan.points.push_back(ways.best_with(rays));
+      const AccuracyPoint point = ways.best_in(plan.answer.seconds * std::pow(4.0, step));
+      const bool apart = plan.points.empty() || plan.points.back().estimator != point.estimator ||
+                         point.rays > 2 * plan.points.back().rays;
+      if (point.rays < most_rays && apart) plan.points.push_back(point);
     }
   }
   mark_frontier(plan.points);
   return plan;
 }
 
+double predicted_seconds(const AccuracyPilot& pilot, std::size_t triangles) {
+  // of tracing a piece of a path to its surface, and of a piece in an estimate
+  const double of_piece = 2e-7 * (1 + 0.1 * std::log2(static_cast<double>(triangles) + 1));
+  constexpr double of_estimate = 3.5e-7;
+  constexpr double longer = 1.5;  // a pilot traces half as many pieces again, to find the seconds
+  double settings = 0;
+  for (const EstimatorPilot& one : pilot.estimators)
+    settings += static_cast<double>(std::ranges::count(one.settings, false, &SettingPilot::settled));
+  const double by_rays = pilot.rays * (longer * of_piece + settings * of_estimate);
+  const double pieces_of_path = 4 / std::max(0.01, pilot.photons_per_ray);  // each looks for a light, from both sides
+  const auto paths = static_cast<double>(pilot.judge.paths * pilot.judge.samples);
+  return by_rays + paths * pieces_of_path * of_piece;
+}
+
 namespace {
 
-/// Reports with the time that is left of the expected seconds.
-sim::ReportPhase with_time_left(const sim::ReportPhase& report, double expected) {
-  if (!report) return {};
-  return [report, expected, watch = sim::Stopwatch{}](const sim::Phase& phase) {
-    const double done = std::min(1.0, watch.seconds() / expected);
-    report({phase.what, done, 1, 0, (1 - done) * expected});
-  };
+/// Whether an estimator is out of the question: far from the target, or from the fastest.
+bool is_out(const AccuracyPoint& way, const AccuracyPlan& plan) {
+  constexpr double far = 4;
+  if (plan.target.kind == AccuracyTarget::Kind::seconds) return way.total_low > plan.answer.total_high;
+  if (plan.reached && way.seconds > far * plan.answer.seconds) return true;
+  return way.bias_low > plan.target.value && way.bias > plan.answer.bias;
+}
+
+/// Settles all settings of estimators that are out, and of the others those that are not beside the setting in question.
+void settle(AccuracyPilot& pilot, const AccuracyPlan& plan) {
+  std::vector<AccuracyPoint> ways = plan.rivals;
+  ways.push_back(plan.answer);
+  for (EstimatorPilot& one : pilot.estimators) {
+    const auto way = std::ranges::find(ways, one.estimator, &AccuracyPoint::estimator);
+    const bool out = way == ways.end() || is_out(*way, plan);
+    for (std::size_t i = 0; i < one.settings.size(); ++i) {
+      const bool below = i + 1 < one.settings.size() && one.settings[i + 1].scale <= way->radius;
+      const bool above = i > 0 && one.settings[i - 1].scale >= way->radius;
+      one.settings[i].settled = out || (uses_radius(one.estimator) && (below || above));
+    }
+  }
 }
 
 }  // namespace
 
 PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, AccuracyPilotOptions options,
                           double most_rays) {
-  constexpr double least_price = 1.5;        // seconds that they may always take
-  constexpr double enough_resolution = 0.5;  // of the target's square, for the standard error of bias²
-  constexpr double most_pilot_rays = 1e7;
+  constexpr double enough = 0.2;           // of the target, for half the width of the bias's interval
+  constexpr double deciding_share = 0.25;  // of the variance of bias²
+  constexpr double most_pilot_rays = 4e7;
   check(target, most_rays);
-  const sim::Stopwatch watch;
-  if (!(options.rays > 0)) options.rays = usual_pilot_rays;
+  double rays = options.rays > 0 ? options.rays : usual_pilot_rays;
   PilotedPlan found;
-  const sim::ReportPhase report = options.progress;
-  for (bool first = true;; first = false, options.rays *= 4) {
-    if (!first) options.progress = with_time_left(report, 4 * found.pilot.seconds);
+  double seconds = 0;  // of all pilots
+  PilotMaker maker(scene, options);
+  std::uint64_t paths = maker.first_paths();
+  for (bool first = true;; first = false) {
     try {
-      found.pilot = make_accuracy_pilot(scene, options);
+      found.pilot = maker.make(rays, paths, first ? nullptr : &found.pilot);
     } catch (const sim::Stopped&) {
       if (first) throw;
       found.stopped = true;
       return found;
     }
+    seconds += found.pilot.seconds;
+    found.pilot.seconds = seconds;
     found.plan = plan_accuracy(found.pilot, target, most_rays);
     const AccuracyPoint& best = found.plan.answer;
-    const double bias_error = (best.bias_high * best.bias_high - best.bias * best.bias) / interval;
-    const double square = std::pow(target.kind == AccuracyTarget::Kind::seconds ? best.total : target.value, 2);
-    const double most_seconds = std::max(least_price, options.price * best.seconds);
-    if (bias_error <= enough_resolution * square || watch.seconds() + 4 * found.pilot.seconds > most_seconds ||
-        options.rays > most_pilot_rays)
-      return found;
+    const double wanted = enough * (target.kind == AccuracyTarget::Kind::seconds ? best.total : target.value);
+    if (0.5 * (best.bias_high - best.bias_low) <= wanted || rays > most_pilot_rays) return found;
+    const auto own = std::ranges::find(found.pilot.estimators, best.estimator, &EstimatorPilot::estimator);
+    const bool by_paths = own->by_reference > deciding_share && options.reference == nullptr;
+    const bool by_rays = own->by_reference < 1 - deciding_share;
+    settle(found.pilot, found.plan);
+    AccuracyPilot next = found.pilot;
+    next.rays *= by_rays ? 4 : 1;
+    next.judge.paths = paths * (by_paths ? 4 : 1);
+    const double price = std::max(options.least_price, options.price * best.seconds);
+    if ((!by_rays && !by_paths) || predicted_seconds(next, scene.mesh.triangles.size()) > price) return found;
+    rays = next.rays;
+    paths = next.judge.paths;
   }
 }
 

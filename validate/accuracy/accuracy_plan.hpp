@@ -18,7 +18,7 @@ struct AccuracyTarget {
 /// One way to estimate, with its errors over the samples by area, relative to the root mean square irradiance.
 struct AccuracyPoint {
   sim::Estimator estimator = sim::Estimator::disc;
-  double rays = 0;
+  double rays = 0;  ///< pieces of photon paths; of gather, backward paths of each sample
   double photons = 0;
   double radius = 0;  ///< scene units; 0: not used
   int nearest = 0;    ///< k; 0: not used
@@ -26,9 +26,12 @@ struct AccuracyPoint {
   double noise_low = 0;  ///< of one run: its error without the bias, over the samples, lies within with 95 %
   double noise_high = 0;
   double bias = 0;
-  double bias_high = 0;  ///< upper bound of the bias, 95 %
-  double total = 0;      ///< √(noise² + bias²)
-  double total_low = 0;  ///< of one run, 95 %: both intervals, whose errors are independent
+  double bias_low = 0;  ///< its interval of 95 %; 0: it may have none
+  double bias_high = 0;
+  double mean_bias = 0;        ///< signed: light gained or lost, relative to the mean irradiance
+  double mean_bias_error = 0;  ///< its standard error
+  double total = 0;            ///< √(noise² + bias²)
+  double total_low = 0;        ///< of one run, 95 %: both intervals, whose errors are independent
   double total_high = 0;
   double trace_seconds = 0;
   double seconds = 0;  ///< predicted, tracing included
@@ -49,12 +52,15 @@ struct AccuracyPlan {
   double floor = 0;                   ///< least bias of any estimator
   std::vector<AccuracyPoint> points;  ///< for each estimator from few to many rays, each with its best setting
   std::vector<AccuracyPoint> rivals;  ///< the best way of each other estimator, the fastest first
+  /// If gather is left out: the bound (95 %) of the light that it misses, relative to B, which is above a tenth of the target.
+  std::optional<double> gather_misses = {};
 };
 
 /// Throws std::invalid_argument unless an error is in (0, 1), seconds are > 0, and there may be from 1 to 1e18 rays.
 void check(const AccuracyTarget& target, double most_rays);
 
-/// From a pilot, by closed forms: noise² falls as 1/rays, bias does not change, seconds grow in proportion.
+/// From a pilot, by closed forms: noise² falls as 1/rays, bias does not change, seconds grow in proportion. gather is left out if the
+/// light that it misses may be above a tenth of the target.
 ///
 /// target noise: of each estimator the largest setting whose bias is below the noise (if there is none, that of the least bias); among
 /// those the fastest. target total: the fastest setting with noise² + bias² = target². target seconds: the setting with the least
@@ -68,10 +74,15 @@ struct PilotedPlan {
   bool stopped = false;  ///< by a stop request: the pilot before the last one answers
 };
 
-/// The same with pilots in the scene, each of four times as many rays as the one before, until the bias is known well enough (standard error
-/// of bias² at most half the target's square), or the next one would exceed the price: `options.price` times the answer's seconds, at least 1.5 s.
-/// `options.rays` are those of the first pilot. Throws as make_accuracy_pilot; sim::Stopped if there was no pilot yet.
+/// The same with pilots in the scene, until the half width of the bias's interval is at most a fifth of the target (of a time: of the total
+/// error). The next pilot has four times the rays, or backward paths, or both, as one or both decide the width. No pilot is made that
+/// would exceed the price: options.price times the answer's seconds, at least options.least_price, by their predicted work
+/// (predicted_seconds). options.rays and paths are those of the first pilot. Throws as make_accuracy_pilot; sim::Stopped if there was no
+/// pilot yet.
 [[nodiscard]] PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, AccuracyPilotOptions options,
                                         double most_rays = 1e9);
+
+/// Seconds of a pilot, by its counts alone: the same on a busy machine. Meant for two processors of 2020.
+[[nodiscard]] double predicted_seconds(const AccuracyPilot& pilot, std::size_t triangles);
 
 }  // namespace detp::validate

@@ -14,8 +14,10 @@ void require_same_length(std::span<const std::vector<double>> runs, const Refere
   if (runs.size() < 3)
     throw std::invalid_argument(fmt::format("splitting an error needs at least 3 runs (got {})", runs.size()));
   const std::size_t samples = reference.irradiance.size();
-  if (samples == 0 || reference.variance.size() != samples)
-    throw std::invalid_argument("a reference needs samples, and a variance for each");
+  if (samples == 0 || reference.variance.size() != samples ||
+      (!reference.weights.empty() && reference.weights.size() != samples))
+    throw std::invalid_argument(
+        "a reference needs samples, and a variance for each, and a weight if there are weights");
   for (const std::vector<double>& run : runs)
     if (run.size() != samples)
       throw std::invalid_argument(fmt::format(
@@ -27,45 +29,107 @@ void require_finite_values(std::span<const double> values, const char* what) {
     if (!std::isfinite(value)) throw std::invalid_argument(fmt::format("{} must be finite (got {})", what, value));
 }
 
-struct Squares {
+/// What the runs say of one sample.
+struct OfSample {
+  double off = 0;       ///< mean - reference
+  double variance = 0;  ///< of one run
+};
+
+/// Mean and variance over all runs but number `without` (none if it is too large).
+OfSample of_sample(std::span<const std::vector<double>> runs, double reference, std::size_t i, std::size_t without) {
+  const auto count = static_cast<double>(runs.size() - (without < runs.size() ? 1 : 0));
+  double sum = 0;
+  for (std::size_t r = 0; r < runs.size(); ++r) sum += r == without ? 0 : runs[r][i];
+  const double mean = sum / count;
+  double squares = 0;
+  for (std::size_t r = 0; r < runs.size(); ++r) squares += r == without ? 0 : (runs[r][i] - mean) * (runs[r][i] - mean);
+  return {mean - reference, squares / (count - 1)};
+}
+
+struct Sums {
   double noise = 0;
   double bias = 0;
+  double mean_bias = 0;
 
   [[nodiscard]] double total() const { return noise + bias; }
 };
 
-/// Sums over all runs but number `without` (none if it is too large), divided by the number of samples.
-Squares squares_of(std::span<const std::vector<double>> runs, const ReferenceValues& reference, std::size_t without) {
-  const auto count = static_cast<double>(runs.size() - (without < runs.size() ? 1 : 0));
-  Squares sums;
-  for (std::size_t i = 0; i < reference.irradiance.size(); ++i) {
-    double sum = 0;
-    for (std::size_t r = 0; r < runs.size(); ++r) sum += r == without ? 0 : runs[r][i];
-    const double mean = sum / count;
-    double squares = 0;
-    for (std::size_t r = 0; r < runs.size(); ++r)
-      squares += r == without ? 0 : (runs[r][i] - mean) * (runs[r][i] - mean);
-    const double variance = squares / (count - 1);
-    const double off = mean - reference.irradiance[i];
-    sums.noise += variance;
-    sums.bias += off * off - variance / count - reference.variance[i];
-  }
-  const auto samples = static_cast<double>(reference.irradiance.size());
-  return {sums.noise / samples, sums.bias / samples};
-}
+class Splitter {
+ public:
+  Splitter(std::span<const std::vector<double>> runs, const ReferenceValues& reference)
+      : runs_(runs), reference_(reference), equal_(1 / static_cast<double>(reference.irradiance.size())) {}
 
-/// Variance of the squared bias that comes from the reference, times the number of samples squared.
-double variance_by_reference(std::span<const std::vector<double>> runs, const ReferenceValues& reference) {
-  double sum = 0;
-  for (std::size_t i = 0; i < reference.irradiance.size(); ++i) {
-    double mean = 0;
-    for (const std::vector<double>& run : runs) mean += run[i] / static_cast<double>(runs.size());
-    const double off = mean - reference.irradiance[i];
-    const double v = reference.variance[i];
-    sum += 4 * std::max(0.0, off * off - v) * v + 2 * v * v;
+  [[nodiscard]] double weight(std::size_t i) const {
+    return reference_.weights.empty() ? equal_ : reference_.weights[i];
   }
-  return sum;
-}
+
+  /// Weighted sums of all runs but one.
+  [[nodiscard]] Sums sums(std::size_t without) const {
+    const auto count = static_cast<double>(runs_.size() - (without < runs_.size() ? 1 : 0));
+    Sums sums;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const auto [off, variance] = of_sample(runs_, reference_.irradiance[i], i, without);
+      sums.noise += weight(i) * variance;
+      sums.bias += weight(i) * (off * off - variance / count - reference_.variance[i]);
+      sums.mean_bias += weight(i) * off;
+    }
+    return sums;
+  }
+
+  /// Variances by the reference, and between the samples of a subset.
+  struct Variances {
+    double bias_by_reference = 0;
+    double bias_by_subset = 0;
+    double noise_by_subset = 0;
+    double mean_by_reference = 0;
+    double mean_by_subset = 0;
+  };
+  [[nodiscard]] Variances variances(const Sums& all) const {
+    const auto runs = static_cast<double>(runs_.size());
+    const auto count = static_cast<double>(size());
+    const double unseen = (1 - reference_.judged_share) * count / std::max(1.0, count - 1);
+    Variances found;
+    double by_noise = 0;  // of bias², from the runs' noise as if it were independent between samples
+    double mean_by_noise = 0;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const auto [off, variance] = of_sample(runs_, reference_.irradiance[i], i, runs_.size());
+      const double w = weight(i) * weight(i);
+      const double v = reference_.variance[i];
+      const double s = variance / runs;
+      const double square = off * off - s - v;
+      const double sure = std::max(0.0, square);
+      found.bias_by_reference += w * (4 * sure * v + 2 * v * v);
+      by_noise += w * (4 * sure * s + 2 * s * s + 4 * s * v);
+      found.mean_by_reference += w * v;
+      mean_by_noise += w * s;
+      found.bias_by_subset += w * (square - all.bias) * (square - all.bias);
+      found.noise_by_subset +=
+          w * ((variance - all.noise) * (variance - all.noise) - 2 * variance * variance / (runs - 1));
+      found.mean_by_subset += w * (off - all.mean_bias) * (off - all.mean_bias);
+    }
+    found.bias_by_subset = unseen * std::max(0.0, found.bias_by_subset - by_noise - found.bias_by_reference);
+    found.mean_by_subset = unseen * std::max(0.0, found.mean_by_subset - mean_by_noise - found.mean_by_reference);
+    found.noise_by_subset = unseen * std::max(0.0, found.noise_by_subset);
+    return found;
+  }
+
+  template <class Value>
+  [[nodiscard]] static double jackknife(const std::vector<Sums>& left_out, const Value& value) {
+    const auto count = static_cast<double>(left_out.size());
+    double mean = 0;
+    for (const Sums& one : left_out) mean += value(one) / count;
+    double squares = 0;
+    for (const Sums& one : left_out) squares += (value(one) - mean) * (value(one) - mean);
+    return (count - 1) / count * squares;
+  }
+
+  [[nodiscard]] std::size_t size() const { return reference_.irradiance.size(); }
+
+ private:
+  std::span<const std::vector<double>> runs_;
+  const ReferenceValues& reference_;
+  double equal_;
+};
 
 /// Errors of single runs at samples with light; estimates at samples without.
 void add_single_errors(std::span<const std::vector<double>> runs, const ReferenceValues& reference, double rms,
@@ -97,31 +161,35 @@ ErrorSplit split_error(std::span<const std::vector<double>> runs, const Referenc
   for (const std::vector<double>& run : runs) require_finite_values(run, "an irradiance");
   require_finite_values(reference.irradiance, "a reference's irradiance");
   require_finite_values(reference.variance, "a reference's variance");
-  const auto samples = static_cast<double>(reference.irradiance.size());
+  const Splitter splitter(runs, reference);
   double mean_square = 0;
-  for (std::size_t i = 0; i < reference.irradiance.size(); ++i)
-    mean_square += (reference.irradiance[i] * reference.irradiance[i] - reference.variance[i]) / samples;
+  double mean = 0;
+  for (std::size_t i = 0; i < splitter.size(); ++i) {
+    const double one = reference.irradiance[i];
+    mean_square += splitter.weight(i) * (one * one - reference.variance[i]);
+    mean += splitter.weight(i) * one;
+  }
   if (!(mean_square > 0)) throw std::invalid_argument("a reference without light has no relative errors");
 
-  const Squares all = squares_of(runs, reference, runs.size());
-  std::vector<Squares> left_out;
-  for (std::size_t r = 0; r < runs.size(); ++r) left_out.push_back(squares_of(runs, reference, r));
-  const auto jackknife = [&](auto value) {
-    const auto count = static_cast<double>(runs.size());
-    double mean = 0;
-    for (const Squares& one : left_out) mean += value(one) / count;
-    double squares = 0;
-    for (const Squares& one : left_out) squares += (value(one) - mean) * (value(one) - mean);
-    return (count - 1) / count * squares;
-  };
-  const double of_reference = variance_by_reference(runs, reference) / (samples * samples);
-  const auto relative = [&](double square, double variance) {
-    return Estimate{square / mean_square, std::sqrt(variance) / mean_square};
+  const Sums all = splitter.sums(runs.size());
+  std::vector<Sums> left_out;
+  for (std::size_t r = 0; r < runs.size(); ++r) left_out.push_back(splitter.sums(r));
+  const Splitter::Variances variances = splitter.variances(all);
+  const double of_bias = variances.bias_by_reference + variances.bias_by_subset;
+  const auto relative = [&](auto value, double more) {
+    const double variance = Splitter::jackknife(left_out, value) + more;
+    return Estimate{value(all) / mean_square, std::sqrt(variance) / mean_square};
   };
   ErrorSplit split;
-  split.noise_squared = relative(all.noise, jackknife([](const Squares& one) { return one.noise; }));
-  split.bias_squared = relative(all.bias, jackknife([](const Squares& one) { return one.bias; }) + of_reference);
-  split.total_squared = relative(all.total(), jackknife([](const Squares& one) { return one.total(); }) + of_reference);
+  split.noise_squared = relative([](const Sums& one) { return one.noise; }, variances.noise_by_subset);
+  split.bias_squared = relative([](const Sums& one) { return one.bias; }, of_bias);
+  split.total_squared = relative([](const Sums& one) { return one.total(); }, of_bias + variances.noise_by_subset);
+  split.by_reference = variances.bias_by_reference / (mean_square * mean_square);
+  if (mean > 0)
+    split.mean_bias = {all.mean_bias / mean,
+                       std::sqrt(Splitter::jackknife(left_out, [](const Sums& one) { return one.mean_bias; }) +
+                                 variances.mean_by_reference + variances.mean_by_subset) /
+                           mean};
   add_single_errors(runs, reference, std::sqrt(mean_square), within, split);
   return split;
 }

@@ -9,18 +9,22 @@
 /// The error of an estimate of irradiance, split into noise and bias.
 namespace detp::validate {
 
-/// Irradiance at samples that are spread evenly over the surfaces' area, and the variances of these values.
+/// Irradiance at samples, and the variances of these values.
 struct ReferenceValues {
   std::span<const double> irradiance;
   std::span<const double> variance;
+  std::span<const double> weights = {};  ///< by area, with sum 1; none: equal
+  double judged_share = 1;               ///< of the samples in question: errors are for all of these
 };
 
 /// Errors of one run, relative to the root mean square irradiance B of the reference. Each is a mean over the samples with its
-/// standard error: for these samples, over all runs and all references.
+/// standard error: over all runs, all references and all subsets of the samples in question.
 struct ErrorSplit {
   Estimate noise_squared;    ///< variance
   Estimate bias_squared;     ///< may be below 0: it is an estimate without bias
   Estimate total_squared;    ///< expected square error of one run: the sum
+  Estimate mean_bias;        ///< signed, relative to the mean irradiance: light that is gained or lost
+  double by_reference = 0;   ///< variance of bias_squared that comes from the reference
   double share_within = 0;   ///< of the samples with light: error of one run below `within` B
   double error_95 = 0;       ///< 95 % of them have an error of one run below this, over B
   double worst = 0;          ///< largest error of one run, over B
@@ -30,14 +34,16 @@ struct ErrorSplit {
 
 /// From R runs (replicates), each with its own seeds:
 ///
-///     m_i = mean of the runs,  s_i² their variance          noise² = Σ s_i²/(n B²)
-///     bias² = Σ ((m_i - b_i)² - s_i²/R - v_i)/(n B²)        total² = noise² + bias²
+///     m_i = mean of the runs,  s_i² their variance          noise² = Σ w_i s_i²/B²
+///     bias² = Σ w_i q_i/B²     q_i = (m_i - b_i)² - s_i²/R - v_i       total² = noise² + bias²
+///     mean bias = Σ w_i (m_i - b_i)/Σ w_i b_i
 ///
-///   where  b_i, v_i   reference at sample i and its variance;  B² = Σ (b_i² - v_i)/n
+///   where  b_i, v_i   reference at sample i and its variance;  B² = Σ w_i (b_i² - v_i)
 ///
-/// Standard errors are those of the jackknife over the runs, and for the bias also 4 Σ (m_i - b_i)² v_i/(n B²)² + 2 Σ v_i²/(n B²)², from
-/// the reference. The square root of bias² is a bias without the spread of the runs: a root of a sum of squares that
-/// contained it would grow with noise. The last four figures are of single runs and contain the reference's error.
+/// Variances are sums of three: by the jackknife over the runs; of the reference, for the bias Σ w_i² (4 q_i v_i + 2 v_i²); and, if
+/// there are more samples in question than judged, that of q_i between samples, above what runs and references explain. The square
+/// root of bias² is a bias without the spread of the runs: a root of a sum of squares that contained it would grow with noise. The
+/// last five figures are of single runs and contain the reference's error.
 ///
 /// Throws std::invalid_argument for fewer than 3 runs, arrays of different lengths, values that are not finite, and a reference that is
 /// 0 everywhere.

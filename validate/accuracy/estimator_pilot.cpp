@@ -57,4 +57,11 @@ Estimate EstimatorPilot::bias_squared(double scale) const {
           mixed(a.standard_error, b.standard_error)};
 }
 
+Estimate EstimatorPilot::mean_bias(double scale) const {
+  const auto [low, high, share] = between(settings, scale);
+  const auto mixed = [share = share](double a, double b) { return (1 - share) * a + share * b; };
+  return {mixed(low.mean_bias.mean, high.mean_bias.mean),
+          mixed(low.mean_bias.standard_error, high.mean_bias.standard_error)};
+}
+
 }  // namespace detp::validate

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "detp/sim/geometry/random.hpp"
 
 namespace detp::validate {
 
@@ -35,23 +39,40 @@ std::vector<double> JudgedSamples::of_all(std::span<const double> values) const 
   return own;
 }
 
-JudgedSamples judged_samples(const sim::Scene& scene, const Reference* reference, std::size_t most) {
-  JudgedSamples judged;
-  if (reference != nullptr) {
-    judged.samples = reference->samples;
-    judged.weights.assign(judged.samples.size(), 1 / static_cast<double>(judged.samples.size()));
-    return judged;
-  }
-  const std::vector<double> weights = area_weights(scene);
-  const std::size_t step = (weights.size() - 1) / most + 1;
+void keep_named(std::vector<double>& weights, const sim::Mesh& mesh, std::span<const sim::Sample> samples,
+                const sim::FaceNames& names, const std::stop_token& stop) {
+  std::vector<double> kept(weights.size());
   double sum = 0;
-  for (std::size_t i = step / 2; i < weights.size(); i += step) {
+  for (const std::size_t place : sim::samples_named(mesh, samples, names, stop)) sum += kept[place] = weights[place];
+  if (!(sum > 0)) throw std::invalid_argument("the faces that are named have no area at their samples");
+  for (double& weight : kept) weight /= sum;
+  weights = std::move(kept);
+}
+
+JudgedSamples judged_samples(const sim::Scene& scene, std::span<const double> weights, std::size_t most) {
+  constexpr std::uint64_t seed = 1;
+  JudgedSamples judged;
+  judged.population =
+      static_cast<std::size_t>(std::ranges::count_if(weights, [](double weight) { return weight > 0; }));
+  std::size_t wanted = std::min(most, judged.population);
+  std::size_t left = judged.population;
+  double sum = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (!(weights[i] > 0))
+      continue;  // of the others, each is chosen with the share of the wanted ones in those that are left
+    const double number = sim::uniform4(seed, sim::Stream::pilot, i)[0];
+    if (number * static_cast<double>(left--) >= static_cast<double>(wanted)) continue;
+    --wanted;
     judged.places.push_back(i);
     judged.samples.push_back(scene.samples[i]);
     sum += judged.weights.emplace_back(weights[i]);
   }
   for (double& weight : judged.weights) weight /= sum;
   return judged;
+}
+
+JudgedSamples judged_samples(const sim::Scene& scene, std::size_t most) {
+  return judged_samples(scene, area_weights(scene), most);
 }
 
 }  // namespace detp::validate

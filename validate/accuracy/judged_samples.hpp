@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <span>
+#include <stop_token>
 #include <vector>
 
-#include "reference.hpp"
+#include "detp/sim/scene/scene.hpp"
+#include "detp/sim/scene/selection.hpp"
 
 /// Where errors of estimates are taken.
 namespace detp::validate {
@@ -13,17 +15,25 @@ namespace detp::validate {
 /// vertices.
 [[nodiscard]] std::vector<double> area_weights(const sim::Scene& scene);
 
+/// Sets the weights of samples that are on none of the named faces to 0, and those of the others to a sum of 1. Throws as
+/// sim::samples_named.
+void keep_named(std::vector<double>& weights, const sim::Mesh& mesh, std::span<const sim::Sample> samples,
+                const sim::FaceNames& names, const std::stop_token& stop = {});
+
+/// A random subset of the samples in question: those with a weight.
 struct JudgedSamples {
   std::vector<sim::Sample> samples;
   std::vector<double> weights;      ///< by area, over their sum
-  std::vector<std::size_t> places;  ///< among the scene's samples; empty: they are those of a reference
+  std::vector<std::size_t> places;  ///< among the scene's samples
+  std::size_t population = 0;       ///< number of the samples in question
 
-  /// The values at these samples, of values at all of the scene's samples. Only if there are `places`.
+  /// The values at these samples, of values at all of the scene's samples.
   [[nodiscard]] std::vector<double> of_all(std::span<const double> values) const;
 };
 
-/// The samples of the reference, if there is one; else at most `most` (> 0) of the scene's, one of every so many: neighbours in the array are
-/// often neighbours in space.
-[[nodiscard]] JudgedSamples judged_samples(const sim::Scene& scene, const Reference* reference, std::size_t most);
+/// At most `most` (> 0) of the scene's samples, with these weights for all of them: always the same ones of the same number.
+[[nodiscard]] JudgedSamples judged_samples(const sim::Scene& scene, std::span<const double> weights, std::size_t most);
+/// With weights by area.
+[[nodiscard]] JudgedSamples judged_samples(const sim::Scene& scene, std::size_t most);
 
 }  // namespace detp::validate

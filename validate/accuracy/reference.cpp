@@ -5,17 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "detp/sim/estimate/estimate.hpp"
+#include "detp/sim/estimate/surface.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/photon_walk.hpp"
-#include "detp/sim/reference/backward_paths.hpp"
-#include "detp/sim/scene/resample.hpp"
+#include "detp/sim/reference/missed_light.hpp"
+#include "replicates.hpp"
 
 namespace detp::validate {
 namespace {
@@ -26,107 +27,25 @@ constexpr std::size_t rays_of_a_batch = 1'000'000;
 constexpr int fewest_batches = 4;
 constexpr int most_batches = 1024;
 
-class ReferenceMaker {
- public:
-  ReferenceMaker(const sim::Scene& scene, const ReferenceOptions& options) : scene_(scene), options_(options) {
-    reference_.scene = scene.name;
-    sim::add_by_area(reference_.samples, scene.mesh, options.samples, options.seed, options.stop);
-    if (reference_.samples.empty())
-      throw std::invalid_argument("a reference needs triangles with an area; " + scene.name + " has none");
-    reference_.irradiance.resize(reference_.samples.size());
-    reference_.variance.resize(reference_.samples.size());
-  }
+double squared(double x) { return x * x; }
 
-  Reference make() && {
-    if (scene_.known_irradiance) {
-      std::ranges::fill(reference_.irradiance, *scene_.known_irradiance);
-    } else if (sim::misses_light(scene_)) {
-      by_landings();
-    } else {
-      by_backward_paths();
-    }
-    reference_.seconds = watch_.seconds();
-    return std::move(reference_);
-  }
+void check(const ReferenceOptions& options) {
+  require_count("number of samples of a reference", static_cast<double>(options.samples), 1, 1e7);
+  require_positive("error of a reference", options.error);
+  require_positive("seconds of a reference", options.seconds);
+  require_non_negative("radius of the reference's patches", options.patch_radius);
+}
 
- private:
-  [[nodiscard]] bool over() const { return options_.stop.stop_requested() || watch_.seconds() >= options_.seconds; }
-
-  void report(const char* doing) {
-    if (!options_.progress) return;
-    const double target = std::pow(options_.error / std::max(options_.error, reference_.error()), 2);
-    options_.progress({doing, std::min(1.0, std::max(target, watch_.seconds() / options_.seconds)), 1});
-  }
-
-  void by_backward_paths() {
-    reference_.kind = ReferenceKind::backward;
-    const sim::BackwardPaths walk(scene_, options_.seed, options_.stop);
-    std::vector<sim::PathSums> sums(reference_.samples.size());
-    for (std::uint64_t paths = paths_at_first; paths <= most_paths; paths += paths / 2) {
-      sim::on_threads(sim::thread_count(options_.threads), [&] {
-        sim::add_backward_paths(walk, reference_.samples, paths, options_.front_facing, sums, options_.stop);
-      });
-      if (options_.stop.stop_requested() && std::ranges::any_of(sums, [](const auto& one) { return one.paths == 0; }))
-        throw sim::Stopped("stopped before the reference had a value for each sample");
-      reference_.paths = paths;
-      for (std::size_t i = 0; i < sums.size(); ++i) {
-        reference_.irradiance[i] = sums[i].irradiance();
-        reference_.variance[i] = sums[i].variance();
-        reference_.paths = std::min(reference_.paths, sums[i].paths);
-      }
-      if (reference_.error() <= options_.error) return;
-      report("reference: backward paths");
-      if (over()) break;
-    }
-    reference_.stopped = true;
-  }
-
-  /// Batches of photons with seeds of their own; their spread gives the variance.
-  void by_landings() {
-    reference_.kind = ReferenceKind::landings;
-    const auto caster = sim::caster_for(scene_, options_.stop);
-    const double radius =
-        options_.patch_radius > 0 ? options_.patch_radius : sim::mean_edge_length(scene_.mesh, options_.stop) / 8;
-    std::vector<sim::Disc> patches;
-    for (const sim::Sample& sample : reference_.samples) patches.push_back({sample.position, sample.normal, radius});
-    std::vector<double> sums(patches.size());
-    std::vector<double> squares(patches.size());
-    for (int batch = 1; batch <= most_batches; ++batch) {
-      const sim::Paths paths = sim::photon_paths(scene_, rays_of_a_batch, seed_of(batch), caster, options_.stop);
-      const sim::Problem problem =
-          sim::make_problem(paths, patches, options_.front_facing, sim::thread_count(options_.threads), options_.stop);
-      const sim::Outcome outcome =
-          sim::estimate(problem, {.estimator = sim::Estimator::area_corrected, .mesh = &scene_.mesh},
-                        {.count = false, .stop = options_.stop, .threads = options_.threads});
-      if (outcome.stopped && batch <= fewest_batches)
-        throw sim::Stopped("stopped before the reference had a value for each sample");
-      if (outcome.stopped) break;
-      reference_.paths += paths.photon_count;
-      for (std::size_t i = 0; i < sums.size(); ++i) {
-        sums[i] += outcome.irradiance[i];
-        squares[i] += outcome.irradiance[i] * outcome.irradiance[i];
-        reference_.irradiance[i] = sums[i] / batch;
-        if (batch > 1)
-          reference_.variance[i] =
-              std::max(0.0, squares[i] / batch - std::pow(reference_.irradiance[i], 2)) / (batch - 1);
-      }
-      if (batch >= fewest_batches && reference_.error() <= options_.error) return;
-      report("reference: photons on patches");
-      if (batch >= fewest_batches && over()) break;
-    }
-    reference_.stopped = true;
-  }
-
-  /// Apart from the seeds of the runs that are judged.
-  [[nodiscard]] std::uint64_t seed_of(int batch) const {
-    return (options_.seed << 20) + (std::uint64_t{1} << 63) + static_cast<std::uint64_t>(batch);
-  }
-
-  const sim::Scene& scene_;
-  const ReferenceOptions& options_;
-  sim::Stopwatch watch_;
-  Reference reference_;
-};
+/// Mean of the batches and its variance, at one sample.
+Estimate over_batches(const std::vector<std::vector<double>>& batches, std::size_t sample) {
+  const auto count = static_cast<double>(batches.size());
+  double sum = 0;
+  for (const auto& batch : batches) sum += batch[sample];
+  const double mean = sum / count;
+  double squares = 0;
+  for (const auto& batch : batches) squares += squared(batch[sample] - mean);
+  return {mean, std::sqrt(squares / count / (count - 1))};
+}
 
 }  // namespace
 
@@ -136,29 +55,152 @@ std::string_view name(ReferenceKind kind) {
       return "known";
     case ReferenceKind::backward:
       return "backward paths";
-    case ReferenceKind::landings:
-      return "photons on patches";
+    case ReferenceKind::both:
+      return "backward paths and photons";
   }
   return "";
 }
 
+double Reference::mean_square() const {
+  double square = 0;
+  for (std::size_t i = 0; i < irradiance.size(); ++i)
+    square += judged.weights[i] * (squared(irradiance[i]) - variance[i]);
+  return square;
+}
+
 double Reference::error() const {
   double errors = 0;
-  double squares = 0;
-  for (std::size_t i = 0; i < irradiance.size(); ++i) {
-    errors += variance[i];
-    squares += irradiance[i] * irradiance[i] - variance[i];
+  for (std::size_t i = 0; i < irradiance.size(); ++i) errors += judged.weights[i] * variance[i];
+  return errors > 0 ? std::sqrt(errors / std::max(mean_square(), 1e-300)) : 0;
+}
+
+ReferenceMaker::ReferenceMaker(const sim::Scene& scene, JudgedSamples judged, const ReferenceOptions& options,
+                               std::shared_ptr<const sim::RayCaster> caster)
+    : scene_(scene),
+      options_(options),
+      caster_(caster ? std::move(caster) : sim::caster_for(scene, options.stop)),
+      walk_(scene, options.seed, caster_),
+      misses_light_(sim::misses_light(scene)),
+      sums_(judged.samples.size()) {
+  reference_.scene = scene.name;
+  reference_.kind = misses_light_ ? ReferenceKind::both : ReferenceKind::backward;
+  reference_.judged = std::move(judged);
+}
+
+void ReferenceMaker::add_paths(std::uint64_t paths) {
+  const sim::Stopwatch watch;
+  sim::on_threads(sim::thread_count(options_.threads), [&] {
+    sim::add_backward_paths(walk_, reference_.judged.samples, paths, options_.front_facing, sums_, options_.stop);
+  });
+  if (options_.stop.stop_requested() && std::ranges::any_of(sums_, [](const auto& one) { return one.paths < 2; }))
+    throw sim::Stopped("stopped before the reference had a value for each sample");
+  path_seconds_ += watch.seconds();
+  reference_.seconds += watch.seconds();
+}
+
+void ReferenceMaker::add_photons(std::size_t rays, int batches) {
+  if (!misses_light_) return;
+  const sim::Stopwatch watch;
+  for (int i = 0; i < batches; ++i) missed_.push_back(missed_by_photons(rays));
+  reference_.seconds += watch.seconds();
+}
+
+std::vector<double> ReferenceMaker::missed_by_photons(std::size_t rays) {
+  // apart from the seeds of the runs that are judged
+  const std::uint64_t seed = (options_.seed << 20) + (std::uint64_t{1} << 63) + missed_.size();
+  const sim::Paths traced = sim::photon_paths(scene_, rays, seed, caster_, options_.stop);
+  const sim::Paths missed = sim::missed_light(scene_, caster_, seed, traced);
+  reference_.photons += traced.photon_count;
+  const double radius =
+      options_.patch_radius > 0 ? options_.patch_radius : sim::mean_edge_length(scene_.mesh, options_.stop) / 8;
+  std::vector<double> found = within(missed, radius);
+  const std::vector<double> wider = within(missed, 2 * radius);
+  for (std::size_t i = 0; i < found.size(); ++i) found[i] = 2 * found[i] - wider[i];
+  return found;
+}
+
+std::vector<double> ReferenceMaker::within(const sim::Paths& missed, double radius) {
+  if (missed.rays.empty()) return std::vector<double>(sums_.size());
+  const auto discs = discs_at(reference_.judged.samples, radius);
+  const sim::Problem problem =
+      sim::make_problem(missed, discs, options_.front_facing, sim::thread_count(options_.threads), options_.stop);
+  if (!surfaces_) surfaces_ = sim::prepare_area_corrected(problem, scene_.mesh, {.stop = options_.stop});
+  sim::Outcome outcome =
+      sim::run(problem, *surfaces_, {.count = false, .stop = options_.stop, .threads = options_.threads});
+  if (outcome.stopped) throw sim::Stopped("stopped before the reference had a value for each sample");
+  return std::move(outcome.irradiance);
+}
+
+const Reference& ReferenceMaker::reference() {
+  const std::size_t samples = sums_.size();
+  reference_.irradiance.resize(samples);
+  reference_.variance.resize(samples);
+  reference_.paths = sums_.front().paths;
+  const std::vector<double>& weights = reference_.judged.weights;
+  double of_path = 0;
+  double paths = 0;
+  double missed_square = 0;
+  double missed_variance = 0;
+  double missed = 0;
+  double mean = 0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const Estimate by_photons = misses_light_ ? over_batches(missed_, i) : Estimate{};
+    const double variance = squared(by_photons.standard_error);
+    reference_.irradiance[i] = sums_[i].irradiance() + by_photons.mean;
+    reference_.variance[i] = sums_[i].variance() + variance;
+    reference_.paths = std::min(reference_.paths, sums_[i].paths);
+    paths += static_cast<double>(sums_[i].paths);
+    of_path += weights[i] * sums_[i].variance() * static_cast<double>(sums_[i].paths);
+    const double square = squared(by_photons.mean) - variance;
+    missed_square += weights[i] * square;
+    missed_variance += squared(weights[i]) * (4 * std::max(0.0, square) * variance + 2 * squared(variance));
+    missed += weights[i] * by_photons.mean;
+    mean += weights[i] * reference_.irradiance[i];
   }
-  return errors > 0 ? std::sqrt(errors / std::max(squares, 1e-300)) : 0;
+  const double square = reference_.mean_square();
+  if (square > 0) {
+    reference_.missed_squared = {missed_square / square, std::sqrt(missed_variance) / square};
+    reference_.path_noise_squared = of_path / square;
+  }
+  if (mean > 0) reference_.missed_mean = missed / mean;
+  reference_.seconds_of_path = path_seconds_ / paths;
+  return reference_;
 }
 
 Reference make_reference(const sim::Scene& scene, const ReferenceOptions& options) {
   const sim::DefaultFloatingPoint mode;
-  require_count("number of samples of a reference", static_cast<double>(options.samples), 1, 1e7);
-  require_positive("error of a reference", options.error);
-  require_positive("seconds of a reference", options.seconds);
-  require_non_negative("radius of the reference's patches", options.patch_radius);
-  return ReferenceMaker(scene, options).make();
+  check(options);
+  if (scene.samples.empty() || scene.mesh.triangles.empty())
+    throw std::invalid_argument("a reference needs samples and triangles; " + scene.name + " has none");
+  const sim::Stopwatch watch;
+  JudgedSamples judged = judged_samples(scene, options.samples);
+  if (scene.known_irradiance) {
+    Reference known{.scene = scene.name, .judged = std::move(judged), .irradiance = {}, .variance = {}};
+    known.irradiance.assign(known.judged.samples.size(), *scene.known_irradiance);
+    known.variance.assign(known.judged.samples.size(), 0);
+    return known;
+  }
+  ReferenceMaker maker(scene, std::move(judged), options);
+  maker.add_photons(rays_of_a_batch, fewest_batches);
+  std::uint64_t paths = paths_at_first;
+  for (int batches = fewest_batches;; ++batches) {
+    maker.add_paths(paths);
+    const Reference& reference = maker.reference();
+    const double error = reference.error();
+    const bool over = options.stop.stop_requested() || watch.seconds() >= options.seconds;
+    if (error <= options.error || over || paths >= most_paths || batches >= most_batches) {
+      Reference made = reference;
+      made.stopped = error > options.error;
+      return made;
+    }
+    if (options.progress) {
+      const double done = std::max(squared(options.error / error), watch.seconds() / options.seconds);
+      options.progress({fmt::format("reference: {}", name(reference.kind)), std::min(1.0, done), 1});
+    }
+    if (!maker.misses_light() || reference.paths < static_cast<std::uint64_t>(batches) * paths_at_first)
+      paths += paths / 2;
+    maker.add_photons(rays_of_a_batch, 1);
+  }
 }
 
 }  // namespace detp::validate

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -20,11 +21,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int version = 2;  // of the file
-constexpr int methods = 1;  // change it whenever make_reference gives other values
+constexpr int version = 3;  // of the file
+constexpr int methods = 2;  // change it whenever make_reference gives other values
 constexpr std::string_view reference_schema = "detp.reference";
 constexpr std::size_t most_bytes_of_reference = std::size_t{1} << 30;
-constexpr std::size_t numbers_of_sample = 8;
+constexpr std::size_t numbers_of_sample = 10;
 
 /// Adds a light's numbers.
 struct AddLight {
@@ -62,6 +63,11 @@ std::string digest_of(const sim::Scene& scene) {
     digest.add(light.flux);
     std::visit(AddLight{digest}, light.shape);
   }
+  digest.add(std::uint64_t{scene.samples.size()});
+  for (const sim::Sample& sample : scene.samples) {
+    digest.add(sample.position);
+    digest.add(sample.normal);
+  }
   return digest.text();
 }
 
@@ -79,7 +85,7 @@ void check_key(const Json& stored, const ReferenceKey& wanted, const std::string
     if (stored.at(name) != value)
       throw sim::FileError(
           path, fmt::format("is the reference of another {}: {}, here it is {}; give another file, or delete this one",
-                            name == "scene" ? "scene, or of other lights or materials" : name,
+                            name == "scene" ? "scene, or of other lights, materials or samples" : name,
                             shortened(stored.at(name).dump(), 40), value.dump()));
 }
 
@@ -91,7 +97,7 @@ std::string checksum_of(Json members, const Json& samples) {
 }
 
 ReferenceKind kind_named(const std::string& text) {
-  for (const ReferenceKind kind : {ReferenceKind::known, ReferenceKind::backward, ReferenceKind::landings})
+  for (const ReferenceKind kind : {ReferenceKind::known, ReferenceKind::backward, ReferenceKind::both})
     if (name(kind) == text) return kind;
   throw std::invalid_argument("its kind is " + detp::quoted(text));
 }
@@ -110,10 +116,14 @@ void add_sample(const Json& numbers, Reference& reference) {
     sample.position[axis] = finite(numbers[axis], "a position");
     sample.normal[axis] = finite(numbers[3 + axis], "a normal");
   }
-  reference.samples.push_back(sample);
+  reference.judged.samples.push_back(sample);
   reference.irradiance.push_back(finite(numbers[6], "an irradiance"));
   reference.variance.push_back(finite(numbers[7], "a variance"));
   if (reference.variance.back() < 0) throw std::invalid_argument("a variance is below 0");
+  reference.judged.weights.push_back(finite(numbers[8], "a weight"));
+  reference.judged.places.push_back(numbers[9]);
+  if (reference.judged.places.back() >= reference.judged.population)
+    throw std::invalid_argument("a sample is not one of the scene's");
 }
 
 }  // namespace
@@ -132,14 +142,21 @@ void write_reference(const std::string& path, const Reference& reference, const 
             {"name", reference.scene},
             {"kind", name(reference.kind)},
             {"paths", reference.paths},
+            {"photons", reference.photons},
+            {"population", reference.judged.population},
+            {"missed_squared", {reference.missed_squared.mean, reference.missed_squared.standard_error}},
+            {"missed_mean", reference.missed_mean},
+            {"path_noise_squared", reference.path_noise_squared},
+            {"seconds_of_path", reference.seconds_of_path},
             {"error", reference.error()},
             {"seconds", reference.seconds},
-            {"columns", {"x", "y", "z", "nx", "ny", "nz", "irradiance", "variance"}}};
+            {"columns", {"x", "y", "z", "nx", "ny", "nz", "irradiance", "variance", "weight", "place"}}};
   Json samples = Json::array();
-  for (std::size_t i = 0; i < reference.samples.size(); ++i) {
-    const sim::Sample& sample = reference.samples[i];
+  for (std::size_t i = 0; i < reference.irradiance.size(); ++i) {
+    const sim::Sample& sample = reference.judged.samples[i];
     const auto& [p, n] = std::pair(sample.position, sample.normal);
-    samples.push_back({p.x, p.y, p.z, n.x, n.y, n.z, reference.irradiance[i], reference.variance[i]});
+    samples.push_back({p.x, p.y, p.z, n.x, n.y, n.z, reference.irradiance[i], reference.variance[i],
+                       reference.judged.weights[i], reference.judged.places[i]});
   }
   head["checksum"] = checksum_of(head, samples);
   sim::OutputFile file(path);
@@ -158,12 +175,20 @@ Reference read_reference(const std::string& path, const ReferenceKey& key) {
       throw sim::FileError(path, "is not a reference of this version of detp");
     check_key(json.at("key"), key, path);
     Reference reference{
-        .scene = json.at("name"), .kind = kind_named(json.at("kind")), .samples = {}, .irradiance = {}, .variance = {}};
+        .scene = json.at("name"), .kind = kind_named(json.at("kind")), .judged = {}, .irradiance = {}, .variance = {}};
     reference.paths = json.at("paths");
+    reference.photons = json.at("photons");
+    reference.judged.population = json.at("population");
+    reference.missed_squared = {finite(json.at("missed_squared").at(0), "missed light"),
+                                finite(json.at("missed_squared").at(1), "an error")};
+    reference.missed_mean = finite(json.at("missed_mean"), "missed light");
+    reference.path_noise_squared = finite(json.at("path_noise_squared"), "a noise");
+    reference.seconds_of_path = finite(json.at("seconds_of_path"), "a number of seconds");
     reference.seconds = finite(json.at("seconds"), "a number of seconds");
     for (const Json& numbers : json.at("samples")) add_sample(numbers, reference);
-    if (reference.samples.size() != key.samples)
-      throw std::invalid_argument(fmt::format("it has {} samples, not {}", reference.samples.size(), key.samples));
+    const std::size_t samples = std::min(key.samples, reference.judged.population);
+    if (reference.irradiance.size() != samples)
+      throw std::invalid_argument(fmt::format("it has {} samples, not {}", reference.irradiance.size(), samples));
     if (json.at("checksum") != checksum_of(json, json.at("samples")))
       throw sim::FileError(path, "was altered: it does not fit its checksum; give another file, or delete this one");
     return reference;

@@ -1,6 +1,7 @@
 #include "replicates.hpp"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "detp/sim/base/stopped.hpp"
@@ -41,14 +42,19 @@ bool ReplicateMaker::goes_on() {
   return *goes_on_;
 }
 
+double ReplicateMaker::overshoot(double radius) {
+  return radius > 0 && goes_on() ? sim::overshoot_over_radius * radius : 0;
+}
+
 sim::TracedPaths ReplicateMaker::trace(std::size_t rays, std::uint64_t seed, double radius) {
-  scene_.overshoot = radius > 0 && goes_on() ? sim::overshoot_over_radius * radius : 0;
+  scene_.overshoot = overshoot(radius);
   return sim::photon_paths(scene_, rays, seed, caster_, stop_);
 }
 
 sim::Outcome ReplicateMaker::estimate(const sim::PathRays& paths, std::span<const sim::Sample> samples,
-                                      const AccuracySetting& setting, bool standard_error) const {
-  const auto discs = discs_at(samples, uses_radius(setting.estimator) ? setting.radius : 1);
+                                      const AccuracySetting& setting, bool standard_error,
+                                      std::span<const double> relative) const {
+  const auto discs = discs_at(samples, uses_radius(setting.estimator) ? setting.radius : 1, relative);
   const sim::Problem problem = sim::make_problem(paths, discs, front_facing_, sim::thread_count(threads_), stop_);
   const sim::RunOptions options{.count = false, .standard_error = standard_error, .stop = stop_, .threads = threads_};
   sim::Outcome outcome =
@@ -59,6 +65,16 @@ sim::Outcome ReplicateMaker::estimate(const sim::PathRays& paths, std::span<cons
                           options);
   if (outcome.stopped) throw sim::Stopped("stopped during a run");
   return outcome;
+}
+
+std::vector<sim::PathSums> ReplicateMaker::gather(std::span<const sim::Sample> samples, std::uint64_t paths,
+                                                  std::uint64_t seed) const {
+  const sim::BackwardPaths walk(scene_, seed, caster_);
+  std::vector<sim::PathSums> sums(samples.size());
+  sim::on_threads(sim::thread_count(threads_),
+                  [&] { sim::add_backward_paths(walk, samples, paths, front_facing_, sums, stop_); });
+  if (stop_.stop_requested()) throw sim::Stopped("stopped during a run");
+  return sums;
 }
 
 const sim::Index& ReplicateMaker::surfaces(const sim::Problem& problem, sim::Estimator estimator) const {
@@ -79,11 +95,19 @@ sim::PathRays first_photons(const sim::Paths& paths, std::uint64_t photons) {
   return {all.rays.first(rays), all.photons.first(rays), all.landings.first(rays), photons, all.triangles.first(rays)};
 }
 
-std::vector<sim::Disc> discs_at(std::span<const sim::Sample> samples, double radius) {
+std::vector<sim::Disc> discs_at(std::span<const sim::Sample> samples, double radius, std::span<const double> relative) {
   std::vector<sim::Disc> discs;
   discs.reserve(samples.size());
-  for (const sim::Sample& sample : samples) discs.push_back({sample.position, sample.normal, radius});
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    discs.push_back({samples[i].position, samples[i].normal, relative.empty() ? radius : radius * relative[i]});
   return discs;
+}
+
+std::vector<sim::Ray> with_overshoot(const sim::Paths& paths, const sim::Scene& scene, double overshoot) {
+  const double beyond = std::max(overshoot, sim::PhotonWalk::gap_share * glm::length(scene.box.size()));
+  std::vector<sim::Ray> rays = paths.rays;
+  for (std::size_t i = 0; i < rays.size(); ++i) rays[i].length = std::min(rays[i].length, paths.landings[i] + beyond);
+  return rays;
 }
 
 }  // namespace detp::validate

@@ -11,6 +11,7 @@
 #include "detp/sim/geometry/paths.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/ray_caster.hpp"
+#include "detp/sim/reference/backward_paths.hpp"
 #include "detp/sim/scene/scene.hpp"
 #include "detp/sim/search/index.hpp"
 
@@ -26,7 +27,8 @@ struct AccuracySetting {
 
 /// Whether the radius matters to the estimator.
 [[nodiscard]] constexpr bool uses_radius(sim::Estimator estimator) {
-  return estimator != sim::Estimator::nearest && estimator != sim::Estimator::triangle_hits;
+  return estimator != sim::Estimator::nearest && estimator != sim::Estimator::triangle_hits &&
+         estimator != sim::Estimator::gather;
 }
 
 /// Makes photon paths of a scene and estimates from them, as `detp run` does. The scene must outlive this; its overshoot is set.
@@ -41,15 +43,24 @@ class ReplicateMaker {
   /// Seconds that building took: of the mesh's ray caster, and of the surfaces of an estimator that needs the mesh (0 before its
   /// first estimate).
   [[nodiscard]] double caster_seconds() const { return caster_seconds_; }
+  [[nodiscard]] const std::shared_ptr<const sim::RayCaster>& caster() const { return caster_; }
   [[nodiscard]] double surface_seconds(sim::Estimator estimator) const;
 
   /// At least so many pieces of paths. `radius` says how far they go on beyond the surfaces where they end, if the discs of this
   /// radius would shadow themselves otherwise (sim/effects/self_shadow.hpp); 0: not at all.
   [[nodiscard]] sim::TracedPaths trace(std::size_t rays, std::uint64_t seed, double radius);
 
-  /// Throws as sim::estimate; sim::Stopped if a stop request came.
+  /// `relative`: radii of the discs over the setting's; none: 1. Throws as sim::estimate; sim::Stopped if a stop request came.
   [[nodiscard]] sim::Outcome estimate(const sim::PathRays& paths, std::span<const sim::Sample> samples,
-                                      const AccuracySetting& setting, bool standard_error = false) const;
+                                      const AccuracySetting& setting, bool standard_error = false,
+                                      std::span<const double> relative = {}) const;
+
+  /// Sums of so many backward paths at each sample, on each side. Throws as sim::BackwardPaths; sim::Stopped if a stop request came.
+  [[nodiscard]] std::vector<sim::PathSums> gather(std::span<const sim::Sample> samples, std::uint64_t paths,
+                                                  std::uint64_t seed) const;
+
+  /// Overshoot of paths for discs of this radius.
+  [[nodiscard]] double overshoot(double radius);
 
  private:
   [[nodiscard]] bool goes_on();
@@ -74,7 +85,11 @@ class ReplicateMaker {
 /// The rays of the first photons. Each photon still has the power that it has among all.
 [[nodiscard]] sim::PathRays first_photons(const sim::Paths& paths, std::uint64_t photons);
 
-/// Discs of one radius at samples.
-[[nodiscard]] std::vector<sim::Disc> discs_at(std::span<const sim::Sample> samples, double radius);
+/// Discs at samples, of one radius, or of radii relative to it.
+[[nodiscard]] std::vector<sim::Disc> discs_at(std::span<const sim::Sample> samples, double radius,
+                                              std::span<const double> relative = {});
+
+/// The rays with an overshoot (Scene::overshoot) that is at most that with which they were traced: as if they had been traced with it.
+[[nodiscard]] std::vector<sim::Ray> with_overshoot(const sim::Paths& paths, const sim::Scene& scene, double overshoot);
 
 }  // namespace detp::validate

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -84,6 +86,27 @@ TEST_SUITE("backward paths: known answers") {
     CHECK(mean.error < 0.01 * 2 * pi);
     const Mean front = backward(scene, samples, 64 * 8, true);
     CHECK(std::abs(front.value - 2 * pi) < 4 * front.error);
+  }
+
+  TEST_CASE("the furnace at vertices, in corners too, and beside its walls by a rounding error: 2π") {
+    const Scene scene = open_scene({.name = "@furnace", .samples = {}});
+    const std::size_t step = scene.samples.size() / 200 + 1;
+    std::vector<Sample> corners;
+    for (const Sample& sample : scene.samples)
+      if (corners.size() < 24 && std::ranges::all_of(std::array{0, 1, 2}, [&](int axis) {
+            return sample.position[axis] == scene.box.low[axis] || sample.position[axis] == scene.box.high[axis];
+          }))
+        corners.push_back(sample);
+    REQUIRE(corners.size() == 24);
+    std::vector<Sample> vertices;
+    for (std::size_t i = 0; i < scene.samples.size(); i += step) vertices.push_back(scene.samples[i]);
+    std::vector<Sample> beside;
+    for (const double off : {1e-8, -1e-8}) beside.push_back({{0.3, off, 0.6}, {0, 1, 0}});
+    for (const auto& samples : {corners, vertices, beside}) {
+      const Mean mean = backward(scene, samples, 64 * 16);
+      CHECK(std::abs(mean.value - 2 * pi) < 4 * mean.error);
+      CHECK(mean.error < 0.03 * 2 * pi);
+    }
   }
 
   TEST_CASE("the sunlit floor: 1 everywhere, by backward paths and by photons; without the cosine it is refuted") {
@@ -184,7 +207,7 @@ TEST_SUITE("backward paths and photons") {
     CHECK_FALSE(misses_light(open_scene({.name = "@courtyard", .samples = {}})));
   }
 
-  TEST_CASE("paths do not depend on threads or on rounds, and a stop leaves whole rounds") {
+  TEST_CASE("paths do not depend on threads or on rounds; a stop leaves whole rounds") {
     const Scene scene = open_scene({.name = "@cornell", .samples = {}});
     std::vector<Sample> samples;
     add_by_area(samples, scene.mesh, 50, 5);

@@ -23,6 +23,7 @@ AccuracyPilot made_pilot(double bias_per_radius, double bias_error = 0) {
                               .scale = radius,
                               .noise_squared_times_rays = {0.2 / (radius * radius), 0},
                               .bias_squared = {bias_per_radius * radius, bias_error},
+                              .mean_bias = {},
                               .seconds = 1000 * per_ray});
   AccuracyPilot pilot;
   pilot.estimators = {discs};

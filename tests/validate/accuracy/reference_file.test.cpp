@@ -49,9 +49,11 @@ TEST_SUITE("references in files") {
     CHECK(read.kind == validate::ReferenceKind::backward);
     CHECK(read.paths == made.paths);
     CHECK(read.error() == made.error());
-    for (std::size_t i = 0; i < made.samples.size(); ++i) {
-      CHECK(read.samples[i].position == made.samples[i].position);
-      CHECK(read.samples[i].normal == made.samples[i].normal);
+    CHECK(read.judged.weights == made.judged.weights);
+    CHECK(read.judged.places == made.judged.places);
+    for (std::size_t i = 0; i < made.judged.samples.size(); ++i) {
+      CHECK(read.judged.samples[i].position == made.judged.samples[i].position);
+      CHECK(read.judged.samples[i].normal == made.judged.samples[i].normal);
     }
   }
 
@@ -100,9 +102,9 @@ TEST_SUITE("bad input") {
         {"detp.reference", "detp.calibrate", "is not a reference of this version"},
         {"\"known\"", "\"guessed\"", "its kind is"},
         {"\"paths\": 0", "\"paths\": \"many\"", "is not a reference"},
-        {"\"samples\": [\n", "\"samples\": [[1, 2, 3],\n", "a sample needs 8 numbers"},
-        {",0.0]", ",-1.0]", "a variance is below 0"},
-        {",0.0]", ",1e999]", "is not a reference"},
+        {"\"samples\": [\n", "\"samples\": [[1, 2, 3],\n", "a sample needs 10 numbers"},
+        {"6.283185307179586,0.0,", "6.283185307179586,-1.0,", "a variance is below 0"},
+        {"6.283185307179586,0.0,", "6.283185307179586,1e999,", "is not a reference"},
         {"  ]\n}", "", "is not a reference"}};
     for (const std::array<std::string, 3>& damage : damages) {
       const std::string& to = damage[1];

@@ -13,6 +13,7 @@
 #include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/files/disc_file.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/photons/light_notes.hpp"
 #include "detp/sim/ranks/failures.hpp"
@@ -21,6 +22,9 @@
 #include "detp/validate/cli/options/value_lists.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
+#include "detp/validate/cli/text/shell_word.hpp"
+#include "detp/validate/job/job.hpp"
+#include "detp/validate/stopping/execute_until.hpp"
 
 namespace detp::cli {
 namespace {
@@ -36,10 +40,13 @@ struct AccuracyOptions {
   std::optional<std::string> lights;
   std::optional<std::string> crease;
   std::optional<std::string> up;
+  std::optional<std::string> discs;
+  std::optional<std::string> disc_radius;
+  sim::FaceNames faces;
   std::optional<std::string> reference;
   std::optional<std::string> seeds;
   std::vector<std::string> axes;
-  bool quick = false;
+  std::string effort = "default";
   bool front_facing = false;
   std::optional<std::string> checkpoint;
   bool resume = false;
@@ -97,7 +104,47 @@ std::string repeated_options(const AccuracyOptions& options) {
   if (options.up) text += " --up " + *options.up;
   if (options.crease) text += " --crease " + *options.crease;
   if (options.front_facing) text += " --front-facing";
+  if (options.discs) text += " --discs " + shell_word(*options.discs);
   return text;
+}
+
+/// The samples in question, if they are not all of the scene's at one radius.
+struct Question {
+  std::vector<double> radii;     ///< to try; none: by the mesh
+  std::vector<double> relative;  ///< of the samples, over those
+  std::vector<double> weights;   ///< of the samples
+};
+
+/// Makes the discs of a file the scene's samples.
+Question take_question(sim::Scene& scene, const AccuracyOptions& options, const std::stop_token& stop) {
+  Question question;
+  const double side = scene.box.longest_side();
+  const auto around = [](double radius) { return std::vector{radius / 2, radius, 2 * radius, 4 * radius}; };
+  std::optional<double> radius;
+  if (options.disc_radius) {
+    const validate::Length length = validate::parse_length(*options.disc_radius);
+    radius = length.relative ? length.value * side : length.value;
+    question.radii = around(*radius);
+  }
+  if (options.discs) {
+    if (options.samples) throw std::invalid_argument("the number of samples is for scenes; a disc file is taken whole");
+    const double usual = radius.value_or(0.5 * sim::mean_edge_length(scene.mesh, stop));
+    const std::vector<sim::Disc> discs = sim::read_discs(*options.discs, usual, stop);
+    scene.samples.clear();
+    std::vector<double> radii;
+    for (const sim::Disc& disc : discs) {
+      scene.samples.push_back({disc.centre, disc.normal});
+      radii.push_back(disc.radius);
+    }
+    const double middle = validate::median(radii);
+    question.radii = around(middle);
+    question.weights = validate::weights_by_area(discs);
+    for (const double one : radii) question.relative.push_back(one / middle);
+  }
+  if (options.faces.empty()) return question;
+  if (question.weights.empty()) question.weights = validate::area_weights(scene);
+  validate::keep_named(question.weights, scene.mesh, scene.samples, options.faces, stop);
+  return question;
 }
 
 constexpr std::array<std::string_view, 4> axis_names{"estimator", "simulation", "model", "arithmetic"};
@@ -142,10 +189,13 @@ class KeptAccuracy {
                        {"target of", target.kind == validate::AccuracyTarget::Kind::noise   ? "noise"
                                      : target.kind == validate::AccuracyTarget::Kind::total ? "error"
                                                                                             : "seconds"},
-                       {"effort", options.quick ? "quick" : "default"},
+                       {"effort", options.effort},
                        {"estimators", fmt::format("{}", fmt::join(options.estimators, ","))},
                        {"limit of rays", most_rays},
                        {"seeds of the runs", options.seeds.value_or("none")},
+                       {"radius", options.disc_radius.value_or("none")},
+                       {"materials", fmt::format("{}", fmt::join(options.faces.materials, ","))},
+                       {"groups", fmt::format("{}", fmt::join(options.faces.groups, ","))},
                        {"reference", options.reference.value_or("none")}});
     if (options.resume) state = read_accuracy(*file_, stop);
   }
@@ -228,17 +278,25 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
   validate::check(target, most_rays);
   const ProgressLine progress(common.quiet);
   sim::Scene scene = scene_of(options, common.seed, stop);
+  if (scene.mesh.triangles.empty())
+    throw std::invalid_argument(
+        fmt::format("accuracy needs photon paths in a mesh; {} has no triangles", options.scene));
+  const Question question = take_question(scene, options, stop);
+  const bool thorough = options.effort == "thorough";
   validate::AccuracyPilotOptions pilot{.estimators = estimators_of(options),
-                                       .price = options.quick ? 0.0 : 2.0,
+                                       .radii = question.radii,
+                                       .relative = question.relative,
+                                       .weights = question.weights,
+                                       .price = options.effort == "quick" ? 0.0
+                                                : thorough                ? 20
+                                                                          : 2,
+                                       .least_price = thorough ? 20 : 1.5,
                                        .front_facing = options.front_facing,
                                        .seed = common.seed,
                                        .threads = common.threads,
                                        .stop = stop,
                                        .progress = progress.report(),
                                        .ranks = options.seeds ? common.ranks : nullptr};
-  if (scene.mesh.triangles.empty())
-    throw std::invalid_argument(
-        fmt::format("accuracy needs photon paths in a mesh; {} has no triangles", options.scene));
   AccuracyAnswer answer{.scene = options.scene,
                         .options = repeated_options(options),
                         .pilot = {},
@@ -308,7 +366,11 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
       {"most_rays", most_rays},
       {"reference", options.reference ? Json(*options.reference) : Json()},
       {"axes", options.axes.empty() ? std::vector<std::string>{"estimator"} : options.axes},
-      {"effort", options.quick ? "quick" : "default"},
+      {"effort", options.effort},
+      {"discs", options.discs ? Json(*options.discs) : Json()},
+      {"disc_radius", question.radii.empty() ? Json() : Json(question.radii[1])},
+      {"materials", options.faces.materials},
+      {"groups", options.faces.groups},
       {"seeds", options.seeds ? Json(*options.seeds) : Json()},
       {"samples", scene.samples.size()},
       {"front_facing", options.front_facing}};
@@ -335,26 +397,34 @@ Command accuracy_command(CLI::App& program) {
   add_number(*app, "--time-budget", options->seconds,
              "seconds that a run may take, tracing included: the most accurate");
   app->add_option("--estimators", options->estimators,
-                  "a list of disc, variable-radius, nearest, area-corrected, triangle-hits; default: all")
+                  "a list of disc, variable-radius, nearest, area-corrected, triangle-hits, gather; default: all")
       ->delimiter(',');
   add_count(*app, "--rays", options->rays, "at most so many pieces of photon paths, as 10M; default: 1e9");
   add_count(*app, "--samples", options->samples, "how many samples; default: the scene's vertices");
+  app->add_option("--discs", options->discs,
+                  "the discs in question, from a CSV or PLY file; default: one at each of the scene's samples");
+  app->add_option(
+      "--disc-radius", options->disc_radius,
+      "radii from half to four times this one are tried (a length, or a percentage); default: from a quarter "
+      "to twice the mean edge of the mesh");
+  add_face_names(*app, options->faces);
   app->add_option("--light", options->lights, "lights placed in the scene, as of run");
   app->add_option("--up", options->up, "which way is up, as of run");
   app->add_option("--crease", options->crease, "angle from which edges are sharp, as of run");
   app->add_option("--reference", options->reference,
                   "the file of the irradiance to compare with; it is made if there is none (up to a minute); "
-                  "default: the pilot itself");
+                  "default: some backward paths");
   app->add_option("--seeds", options->seeds, "runs the answer again with each of these seeds, as 1:100; default: not");
   app->add_option(
          "--axis", options->axes,
          "what accuracy costs elsewhere, too: simulation (a hit probability by several ways to sample lines), model "
          "(what choosing knows at each rigor), arithmetic (float, double, exact); default: estimator alone")
       ->delimiter(',');
-  app->add_option_function<std::string>(
-         "--effort", [options](const std::string& effort) { options->quick = effort == "quick"; },
-         "quick: pilots of some seconds and no run to check the answer; default: default")
-      ->check(CLI::IsMember({"quick", "default"}));
+  app->add_option(
+         "--effort", options->effort,
+         "quick: no run to check the answer; thorough: pilots of up to 20 s, or twenty times the answer, until "
+         "the bias is known to a fifth of the target; default: default")
+      ->check(CLI::IsMember({"quick", "default", "thorough"}));
   app->add_flag("--front-facing", options->front_facing, "light that arrives from behind does not count");
   app->add_option(
       "--checkpoint", options->checkpoint,

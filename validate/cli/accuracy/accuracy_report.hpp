@@ -39,6 +39,11 @@ struct AccuracyAnswer {
 /// The answer in sentences, with its command.
 [[nodiscard]] std::string answer_words(const AccuracyAnswer& answer);
 
+/// It has backward paths instead of photons.
+[[nodiscard]] inline bool gathers(const validate::AccuracyPoint& point) {
+  return point.estimator == sim::Estimator::gather;
+}
+
 /// Whether the point has the target's error; of a time, always.
 [[nodiscard]] bool reaches(const AccuracyAnswer& answer, const validate::AccuracyPoint& point);
 

@@ -33,12 +33,16 @@ Json point_json(const AccuracyAnswer& answer, const AccuracyPoint& point) {
           {"setting", setting_words(answer, point)},
           {"disc_radius", point.radius > 0 ? Json(point.radius) : Json()},
           {"nearest", point.nearest > 0 ? Json(point.nearest) : Json()},
-          {"rays", std::round(point.rays)},
+          {"rays", gathers(point) ? 0 : std::round(point.rays)},
+          {"paths", gathers(point) ? Json(std::round(point.rays)) : Json()},
           {"photons", std::round(point.photons)},
           {"command", command_of(answer, point)},
           {"noise", point.noise},
           {"noise_interval", {point.noise_low, point.noise_high}},
           {"bias", point.bias},
+          {"bias_interval", {point.bias_low, point.bias_high}},
+          {"mean_bias", point.mean_bias},
+          {"mean_bias_error", point.mean_bias_error},
           {"error", point.total},
           {"error_interval", {point.total_low, point.total_high}},
           {"variance", point.noise * point.noise},
@@ -52,17 +56,12 @@ Json point_json(const AccuracyAnswer& answer, const AccuracyPoint& point) {
 }
 
 Json reference_json(const AccuracyAnswer& answer) {
-  if (!answer.reference)
-    return {{"kind", "area-corrected estimates of the pilot"},
-            {"radius", answer.pilot.reference_radius},
-            {"photons", std::round(answer.pilot.rays * answer.pilot.photons_per_ray)},
-            {"error", nullptr},
-            {"seconds", answer.pilot.seconds}};
-  const validate::Reference& reference = *answer.reference;
-  const bool photons = reference.kind == validate::ReferenceKind::landings;
-  return {{"kind", name(reference.kind)}, {"photons", photons ? Json(reference.paths) : Json()},
-          {"paths", reference.paths},     {"samples", reference.samples.size()},
-          {"error", reference.error()},   {"seconds", reference.seconds}};
+  const validate::PilotJudge& judge = answer.pilot.judge;
+  const bool photons = judge.kind == validate::ReferenceKind::both;
+  return {{"kind", name(judge.kind)},   {"photons", photons ? Json(judge.photons) : Json()},
+          {"paths", judge.paths},       {"samples", judge.samples},
+          {"error", judge.error},       {"seconds", judge.seconds},
+          {"missed", judge.missed_mean}};
 }
 
 /// Null without reruns.
@@ -89,8 +88,8 @@ Json axis_json(const validate::AxisPoint& point) {
 }  // namespace
 
 std::string command_of(const AccuracyAnswer& answer, const AccuracyPoint& point) {
-  std::string text = fmt::format("detp run {} --rays {:.3g} --estimator {}", shell_word(answer.scene), point.rays,
-                                 name(point.estimator));
+  std::string text = fmt::format("detp run {} --{} {:.3g} --estimator {}", shell_word(answer.scene),
+                                 gathers(point) ? "paths" : "rays", point.rays, name(point.estimator));
   if (point.radius > 0) text += fmt::format(" --disc-radius {:.4g}", point.radius);
   if (point.nearest > 0) text += fmt::format(" --nearest {}", point.nearest);
   return text + answer.options;
@@ -106,7 +105,6 @@ Json to_json(const AccuracyAnswer& answer) {
   if (sim::record_of(best.estimator).finds_pairs) chosen["technique"] = "box-tree";
   if (best.estimator == sim::Estimator::nearest) chosen["technique"] = "photon-map";
   chosen["reached"] = answer.plan.reached;
-  chosen["bias_interval"] = {0.0, best.bias_high};
   chosen["trace_seconds"] = best.trace_seconds;
   chosen["predicted_seconds_interval"] = {best.seconds / seconds_factor, seconds_factor * best.seconds};
   if (answer.check) {
@@ -154,11 +152,15 @@ std::string csv_of(const AccuracyAnswer& answer) {
                "disc_radius",
                "nearest",
                "rays",
+               "paths",
                "photons",
                "noise",
                "noise_low",
                "noise_high",
                "bias",
+               "bias_low",
+               "bias_high",
+               "mean_bias",
                "error",
                "error_low",
                "error_high",
@@ -182,14 +184,16 @@ std::string csv_of(const AccuracyAnswer& answer) {
   const auto add = [&](const char* role, const AccuracyPoint& point, const Json& measured = Json::object()) {
     Json cells = point_json(answer, point);
     cells["reached"] = reaches(answer, point);
-    cells["reference"] = answer.reference ? Json(name(answer.reference->kind)) : Json("pilot");
-    if (answer.reference) cells["reference_error"] = answer.reference->error();
+    cells["reference"] = name(answer.pilot.judge.kind);
+    cells["reference_error"] = answer.pilot.judge.error;
+    cells["bias_low"] = point.bias_low;
+    cells["bias_high"] = point.bias_high;
     cells["noise_low"] = point.noise_low;
     cells["noise_high"] = point.noise_high;
     cells["error_low"] = point.total_low;
     cells["error_high"] = point.total_high;
-    for (const char* other : {"axis", "noise_interval", "error_interval", "variance", "slope", "slope_interval",
-                              "processor_seconds", "cut_off"})
+    for (const char* other : {"axis", "noise_interval", "bias_interval", "mean_bias_error", "error_interval",
+                              "variance", "slope", "slope_interval", "processor_seconds", "cut_off"})
       cells.erase(other);
     cells.update(measured);
     add_row(role, cells);

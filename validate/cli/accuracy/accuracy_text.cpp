@@ -21,6 +21,7 @@ std::string rays_words(double rays) { return fmt::format("{:.2g}", rays); }
 
 /// "340 000 photon paths with discs of radius 0.021 (2.1 % of the scene), estimator disc".
 std::string way(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  if (gathers(point)) return fmt::format("{:.3g} backward paths of each sample, estimator gather", point.rays);
   std::string text = fmt::format("{:.3g} photon paths ({:.3g} pieces)", point.photons, point.rays);
   if (point.radius > 0)
     text += fmt::format(" with radius {:.3g} ({:.2g} % of the scene)", point.radius, 100 * point.radius / answer.side);
@@ -28,12 +29,24 @@ std::string way(const AccuracyAnswer& answer, const AccuracyPoint& point) {
   return text + fmt::format(", estimator {}", name(point.estimator));
 }
 
-std::string bias_words(const AccuracyPoint& best) {
-  if (best.bias_high > 2 * best.bias)
-    return fmt::format("The bias is at most {}, the total at most {}. ", percent(best.bias_high),
-                       percent(best.total_high));
-  return fmt::format("The bias is about {} (at most {}), so the total is {}. ", percent(best.bias),
-                     percent(best.bias_high), percent(best.total));
+/// "9 % (8 to 10)", "at most 2 %".
+std::string bias_words(const AccuracyPoint& point) {
+  if (point.bias_low > 0)
+    return fmt::format("{} ({:.2g} to {:.2g})", percent(point.bias), 100 * point.bias_low, 100 * point.bias_high);
+  return point.bias_high > 0 ? "at most " + percent(point.bias_high) : "none";
+}
+
+/// Where the mean bias is clear.
+std::string light_words(const AccuracyPoint& point) {
+  constexpr double clear = 3;  // standard errors
+  if (std::abs(point.mean_bias) <= clear * point.mean_bias_error || std::abs(point.mean_bias) < 0.001) return "";
+  return fmt::format(" ({} of the light is {})", percent(std::abs(point.mean_bias)),
+                     point.mean_bias > 0 ? "gained" : "lost");
+}
+
+std::string error_words(const AccuracyPoint& best) {
+  return fmt::format("Bias: {}{}; total: {} ({:.2g} to {:.2g}). ", bias_words(best), light_words(best),
+                     percent(best.total), 100 * best.total_low, 100 * best.total_high);
 }
 
 std::string rivals_words(const AccuracyAnswer& answer) {
@@ -44,11 +57,13 @@ std::string rivals_words(const AccuracyAnswer& answer) {
     if (target.kind == AccuracyTarget::Kind::seconds || !answer.plan.reached)
       text += fmt::format(" has {}", percent(rival.total));
     else if (!reaches(answer, rival))
-      text += fmt::format(" does not reach it: its bias is {}", percent(rival.bias));
+      text += fmt::format(" does not reach it: its bias is {}", bias_words(rival));
     else
       text += fmt::format(" takes {:.2g} times as long (bias {})", rival.seconds / answer.plan.answer.seconds,
-                          percent(rival.bias));
+                          bias_words(rival));
   }
+  if (answer.plan.gather_misses)
+    text += fmt::format("; gather is left out: it misses up to {} of the light", percent(*answer.plan.gather_misses));
   return text;
 }
 
@@ -102,20 +117,22 @@ std::string axes_text(const AccuracyAnswer& answer, const Screen& screen) {
 }
 
 std::string bias_source(const AccuracyAnswer& answer) {
-  if (answer.reference && answer.reference->kind == validate::ReferenceKind::known)
-    return "against the closed form of this scene.";
-  if (answer.reference)
-    return fmt::format("against a reference by {} with an error of {}.", name(answer.reference->kind),
-                       percent(answer.reference->error()));
-  return fmt::format(
-      "against area-corrected estimates of radius {:.2g} %, photons alike; a bias that all estimators share is not "
-      "seen (--reference sees it).",
-      100 * answer.pilot.reference_radius / answer.side);
+  const validate::PilotJudge& judge = answer.pilot.judge;
+  if (judge.kind == validate::ReferenceKind::known) return "against the closed form of this scene.";
+  std::string text = fmt::format("against {} backward paths of each of {} samples (error {})", judge.paths,
+                                 judge.samples, percent(judge.error));
+  if (judge.kind == validate::ReferenceKind::both)
+    text += fmt::format(
+        " and {:.2g} photons for the {} of the light that these paths miss, extrapolated from two radii: blur common "
+        "to both is not seen",
+        static_cast<double>(judge.photons), percent(judge.missed_mean));
+  return text + ".";
 }
 
 }  // namespace
 
 std::string setting_words(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  if (gathers(point)) return "";
   if (point.radius > 0) return fmt::format("d = {:.2g} %", 100 * point.radius / answer.side);
   return point.nearest > 0 ? fmt::format("k = {}", point.nearest) : "";
 }
@@ -138,7 +155,7 @@ std::string answer_words(const AccuracyAnswer& answer) {
                        percent(target.value), target.kind == AccuracyTarget::Kind::noise ? "noise" : "error",
                        way(answer, best), best.seconds, best.seconds / seconds_factor, seconds_factor * best.seconds,
                        best.trace_seconds);
-    text += bias_words(best);
+    text += error_words(best);
   }
   if (answer.check && answer.correction != 1)
     text += fmt::format("Corrected: {:.3g} pieces, predicted by the pilot, had {} noise and took {:.2g} s. ",
@@ -185,7 +202,7 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
   TextTable table({{.head = "total"},
                    {.head = "noise"},
                    {.head = "bias"},
-                   {.head = "pieces"},
+                   {.head = "pieces (paths)"},
                    {.head = "setting", .align = Align::left},
                    {.head = "estimator", .align = Align::left},
                    {.head = "seconds"},
@@ -193,8 +210,10 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
   const auto add = [&](const AccuracyPoint& point, const std::string& remark) {
     table.add({{percent(point.total)},
                {percent(point.noise)},
-               {percent(point.bias)},
-               {rays_words(point.rays)},
+               {point.bias_low > 0    ? percent(point.bias)
+                : point.bias_high > 0 ? "< " + percent(point.bias_high)
+                                      : "0"},
+               {rays_words(point.rays) + (gathers(point) ? " a sample" : "")},
                {setting_words(answer, point)},
                {std::string(name(point.estimator))},
                {fmt::format("{:.2g}", point.seconds)},
@@ -228,8 +247,7 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
   text +=
       wrapped(fmt::format("noise, bias, total: root mean square over {}, relative to the root mean square irradiance. "
                           "Seconds: wall clock, tracing included. Bias: {}",
-                          answer.reference ? "the reference's samples, spread by area" : "the samples by area",
-                          bias_source(answer)),
+                          "the samples by area", bias_source(answer)),
               screen.text_width(), 0);
   return text + fmt::format("planning  {:.2g} s: a pilot of {:.2g} pieces{}\n", answer.seconds, answer.pilot.rays,
                             answer.check ? ", one check" : "");

@@ -120,6 +120,15 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
           switched_effects()));
 }
 
+void add_face_names(CLI::App& command, sim::FaceNames& names) {
+  command
+      .add_option("--material", names.materials,
+                  "errors are those of the samples on faces with these materials, a list; default: of all samples")
+      ->delimiter(',');
+  command.add_option("--group", names.groups, "the same of faces in these groups or objects of an OBJ file")
+      ->delimiter(',');
+}
+
 double parse_crease(const std::string& text) {
   const double crease = parse_number("--crease", text);
   if (!(crease >= 0 && crease <= 180))

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common_options.hpp"
+#include "detp/sim/scene/selection.hpp"
 #include "detp/validate/job/job.hpp"
 #include "value_lists.hpp"
 
@@ -38,6 +39,9 @@ void require_numbers(const validate::JobRequest& request);
 /// "isotropic", "photons", "mixed" or "mixed:0.5:0.25:0.25". Throws std::invalid_argument for other text, and unless shares
 /// add up to 1.
 [[nodiscard]] std::pair<sim::Field, sim::FieldShares> parse_field(const std::string& text);
+
+/// --material and --group.
+void add_face_names(CLI::App& command, sim::FaceNames& names);
 
 /// "area,spot". Throws std::invalid_argument for an unknown kind.
 [[nodiscard]] double parse_crease(const std::string& text);

@@ -144,6 +144,9 @@ void check_options(const RunOptions& options, std::size_t rows) {
     if (options.pairs || options.standard_error || options.repeat > 0)
       throw std::invalid_argument("a run until an error has no --pairs, --standard-error and --repeat");
   }
+  if (!options.target.given() && !options.target.faces.empty())
+    throw std::invalid_argument(
+        "--material and --group say of which samples the error is: give --target-noise or --target-error");
   static_cast<void>(share_of(options));
   if (options.target.checkpoint && (!options.target.given() || rows > 1))
     throw std::invalid_argument("--checkpoint keeps one run with --target-noise or --target-error");
@@ -351,6 +354,8 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     inputs["threads"] = sim::thread_count(common.threads);  // a cap if the command chooses
     inputs["repeat"] = options.repeat;
     if (options.target.given()) {
+      inputs["materials"] = options.target.faces.materials;
+      inputs["groups"] = options.target.faces.groups;
       inputs["target_noise"] = options.target.noise ? Json(found.until->target) : Json();
       inputs["target_error"] = options.target.error ? Json(found.until->target) : Json();
       if (!options.workload.request(common).ray_file)
@@ -410,6 +415,7 @@ Command run_command(CLI::App& program) {
                   "irradiance) is smaller, as 5%; --rays is then the limit (1e9); default: not");
   app->add_option("--target-error", options->target.error,
                   "the same of noise and bias together; the bias comes from a pilot; default: not");
+  add_face_names(*app, options->target.faces);
   app->add_option("--confidence", options->target.confidence, "that the noise of this run is smaller; default: 95%");
   app->add_option("--checkpoint", options->target.checkpoint,
                   "with a target: keep in this file what is found, so that the run can be killed; default: none");

@@ -189,12 +189,12 @@ Json run_cells(const Json& inputs, const RunAnswer& answer, const Json& json) {
   cells.update(effect_cells(json["effects"]));
   cells.update(count_cells(json["counts"]));
   cells["hits"] = json["hits"];
-  for (const std::string what : {"noise", "error"}) {
+  for (const std::string what : {"noise", "bias", "error"}) {
     if (!json.contains(what + "_interval")) continue;
     cells[what + "_low"] = json[what + "_interval"][0];
     cells[what + "_high"] = json[what + "_interval"][1];
   }
-  for (const char* alone : {"target", "stop_tests", "share_bound", "bias_seconds", "radius_for_target"})
+  for (const char* alone : {"target", "stop_tests", "share_bound", "bias_by", "bias_seconds", "radius_for_target"})
     cells.erase(alone);
   if (json.contains("hits_estimate") && !json["hits_estimate"].is_null()) {
     cells["hits_estimate"] = json["hits_estimate"]["value"];
@@ -298,6 +298,9 @@ Columns run_columns() {
                  "error_low",
                  "error_high",
                  "bias_estimate",
+                 "bias_low",
+                 "bias_high",
+                 "mean_bias",
                  "confidence",
                  "stopped_because",
                  "until_seconds"} +

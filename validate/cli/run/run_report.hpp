@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "detp/validate/accuracy/error_split.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/cli/report/answer_rows.hpp"
 #include "detp/validate/stopping/run_until.hpp"
@@ -12,9 +13,15 @@ namespace detp::cli {
 
 /// Of an estimator at the radius of a run.
 struct BiasEstimate {
-  validate::Estimate squared;  ///< relative to B²
-  double seconds = 0;          ///< that finding it took
-  double radius = 0;           ///< the largest of the radii tried whose bias is below the target; 0: none
+  validate::Estimate squared;    ///< relative to B²
+  validate::Estimate mean = {};  ///< signed, relative to the mean irradiance; not known by two radii
+  std::size_t runs = 8;
+  std::string by = {};  ///< what the estimator was compared with
+
+  [[nodiscard]] validate::RootInterval interval() const { return root_of(squared, runs); }
+
+  double seconds = 0;  ///< that finding it took
+  double radius = 0;   ///< the largest of the radii tried whose bias is below the target; 0: none
 };
 
 /// How a run until an error ended.

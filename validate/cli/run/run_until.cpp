@@ -1,8 +1,10 @@
 #include "run_until.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,6 +14,7 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/accuracy/accuracy_pilot.hpp"
+#include "detp/validate/accuracy/two_radii.hpp"
 #include "detp/validate/checkpoint/checkpoint_file.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/job/job_digest.hpp"
@@ -29,35 +32,107 @@ bool has_bias(const validate::Job& job) {
   return job.scene && !job.rays_from_file && job.field == sim::Field::photons && !job.scene->mesh.triangles.empty();
 }
 
-/// Bias of the estimator at the job's radius, from pilots that also try smaller ones. They are repeated with four times the rays, up to
-/// `most_rays`, until the standard error of bias² is at most half of the target's square.
+/// The samples of a job's discs in place of its scene's, as long as this lives.
+class SamplesOfDiscs {
+ public:
+  explicit SamplesOfDiscs(const validate::Job& job) : scene_(*job.scene), overshoot_(job.scene->overshoot) {
+    samples_.swap(scene_.samples);
+    for (const sim::Disc& disc : job.discs) scene_.samples.push_back({disc.centre, disc.normal});
+  }
+  ~SamplesOfDiscs() {
+    samples_.swap(scene_.samples);
+    scene_.overshoot = overshoot_;
+  }
+  SamplesOfDiscs(const SamplesOfDiscs&) = delete;
+  SamplesOfDiscs& operator=(const SamplesOfDiscs&) = delete;
+
+ private:
+  sim::Scene& scene_;
+  double overshoot_;
+  std::vector<sim::Sample> samples_;
+};
+
+/// Bias of the estimator at the job's discs, from pilots that also try smaller radii. They are repeated with four times the rays and paths, up
+/// to `most_rays`, until half the width of the bias's interval is at most a quarter of the target.
 BiasEstimate bias_of(const validate::Job& job, sim::Estimator estimator, double target, double most_rays, int threads,
-                     const std::stop_token& stop) {
+                     const std::vector<double>& weights, const std::stop_token& stop) {
+  constexpr double enough = 0.25;
   const double radius = job.given.disc_radius;
-  const double overshoot = job.scene->overshoot;
+  std::vector<double> relative;
+  for (const sim::Disc& disc : job.discs) relative.push_back(disc.radius / radius);
+  const SamplesOfDiscs samples(job);
+  validate::PilotMaker pilots(*job.scene, {.estimators = {estimator},
+                                           .radii = {radius / 4, radius / 2, radius},
+                                           .relative = relative,
+                                           .weights = weights,
+                                           .front_facing = job.front_facing,
+                                           .seed = job.seed + 1,
+                                           .threads = threads,
+                                           .stop = stop});
   BiasEstimate bias;
-  for (double rays = validate::usual_pilot_rays;; rays *= 4) {
-    const validate::AccuracyPilot pilot =
-        validate::make_accuracy_pilot(*job.scene, {.estimators = {estimator},
-                                                   .rays = rays,
-                                                   .radii = {radius / 4, radius / 2, radius},
-                                                   .front_facing = job.front_facing,
-                                                   .seed = job.seed + 1,
-                                                   .threads = threads,
-                                                   .stop = stop});
-    job.scene->overshoot = overshoot;
+  std::uint64_t paths = pilots.first_paths();
+  for (double rays = validate::usual_pilot_rays;; rays *= 4, paths *= 4) {
+    const validate::AccuracyPilot pilot = pilots.make(rays, paths);
     const validate::EstimatorPilot& own = pilot.estimators.front();
-    bias.squared = own.bias_squared(own.settings.back().scale);
+    bias.squared = own.settings.back().bias_squared;
+    bias.mean = own.settings.back().mean_bias;
+    bias.runs = own.runs;
+    bias.by = name(pilot.judge.kind);
     bias.seconds += pilot.seconds;
     bias.radius = 0;
     for (const validate::SettingPilot& setting : own.settings)
       if (validate::uses_radius(estimator) && setting.bias_squared.mean <= target * target) bias.radius = setting.scale;
-    if (2 * bias.squared.standard_error <= target * target || 4 * rays > most_rays) return bias;
+    const validate::RootInterval interval = bias.interval();
+    if (0.5 * (interval.high - interval.low) <= enough * target || 4 * rays > most_rays) return bias;
   }
 }
 
+/// Photons of a job's rays, divided among so many runs by their numbers; of more rays than `most` only some of the photons.
+std::vector<sim::Paths> runs_of_photons(const validate::Job& job, std::uint64_t runs, std::size_t most) {
+  const std::uint64_t step = runs * (job.rays.size() / most + 1);
+  std::vector<sim::Paths> all(runs);
+  for (std::size_t i = 0; i < job.rays.size(); ++i) {
+    const std::uint64_t photon = job.photons.empty() ? i : job.photons[i];
+    if (photon % step >= runs) continue;
+    sim::Paths& own = all[photon % runs];
+    own.rays.push_back(job.rays[i]);
+    own.photons.push_back(photon);
+  }
+  return all;
+}
+
+/// Bias of discs by half the radius with the same rays, where there is no scene to judge by; nothing if no ray meets a disc.
+std::optional<BiasEstimate> bias_by_radii(const validate::Job& job, const Candidate& candidate, int threads,
+                                          const std::vector<double>& weights, const std::stop_token& stop) {
+  constexpr std::uint64_t runs = 8;
+  constexpr std::size_t most_rays = 2'000'000;
+  const sim::Stopwatch watch;
+  std::vector<sim::Disc> half = job.discs;
+  for (sim::Disc& disc : half) disc.radius /= 2;
+  std::array<std::vector<std::vector<double>>, 2> found;
+  for (const sim::Paths& paths : runs_of_photons(job, runs, most_rays))
+    for (const bool narrow : {false, true}) {
+      const sim::Problem problem =
+          sim::make_problem(paths.rays, narrow ? half : job.discs, job.front_facing, threads, stop);
+      sim::Outcome outcome = sim::run(problem, candidate, {.count = false, .stop = stop, .threads = threads});
+      if (outcome.stopped) throw sim::Stopped("stopped during a pilot");
+      found[narrow ? 1 : 0].push_back(std::move(outcome.irradiance));
+    }
+  const auto light = [](const std::vector<double>& run) {
+    return std::ranges::any_of(run, [](double e) { return e > 0; });
+  };
+  if (std::ranges::none_of(found[0], light)) return std::nullopt;
+  BiasEstimate bias;
+  bias.squared = validate::bias_by_two_radii(found[0], found[1], weights);
+  bias.by = "half the radius with the same rays: blur common to both is not seen";
+  bias.runs = runs;
+  bias.seconds = watch.seconds();
+  return bias;
+}
+
 /// All that decides what a run finds, but for its candidate: techniques find the same.
-Json key_of(const RunAnswer& answer, const validate::Job& job, const UntilAnswer& until, double most_rays) {
+Json key_of(const RunAnswer& answer, const validate::Job& job, const UntilAnswer& until, double most_rays,
+            const sim::FaceNames& faces) {
   return {{"seed", job.seed},
           {"estimator", name(answer.estimator)},
           {"nearest", answer.estimator == sim::Estimator::nearest ? describe(answer.candidate) : "none"},
@@ -67,6 +142,8 @@ Json key_of(const RunAnswer& answer, const validate::Job& job, const UntilAnswer
           {"confidence", until.confidence},
           {"limit of rays", most_rays},
           {"facing", job.front_facing ? "front" : "any"},
+          {"materials", fmt::format("{}", fmt::join(faces.materials, ","))},
+          {"groups", fmt::format("{}", fmt::join(faces.groups, ","))},
           {"digest of rays and discs", validate::digest_of(job)}};
 }
 
@@ -81,6 +158,19 @@ std::optional<validate::SavedRun> read(const validate::CheckpointFile& file, con
   } catch (const std::invalid_argument& error) {
     throw file.damaged(error.what());
   }
+}
+
+/// Weights of the job's discs, of which some may not count.
+std::vector<double> weights_in_question(const validate::Job& job, const sim::FaceNames& faces,
+                                        const std::stop_token& stop) {
+  std::vector<double> weights = validate::weights_of(job);
+  if (faces.empty()) return weights;
+  if (!job.scene || job.scene->mesh.triangles.empty())
+    throw std::invalid_argument("--material and --group name faces of a scene; there is none");
+  std::vector<sim::Sample> samples;
+  for (const sim::Disc& disc : job.discs) samples.push_back({disc.centre, disc.normal});
+  validate::keep_named(weights, job.scene->mesh, samples, faces, stop);
+  return weights;
 }
 
 std::string percent_words(double share) { return fmt::format("{:.2g} %", 100 * share); }
@@ -111,7 +201,8 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   std::optional<validate::CheckpointFile> file;
   std::optional<validate::SavedRun> saved;
   const Requested chosen = agreed(ranks, [&]() -> Requested {  // on rank 0
-    if (options.checkpoint) file.emplace(*options.checkpoint, "run until an error", key_of(answer, job, until, limit));
+    if (options.checkpoint)
+      file.emplace(*options.checkpoint, "run until an error", key_of(answer, job, until, limit, options.faces));
     if (options.checkpoint && options.resume) saved = read(*file, stop);
     if (!saved) return candidate.choose();
     if (const std::string missing = candidate.missing(saved->candidate); !missing.empty())
@@ -131,10 +222,12 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
     return;
   }
   constexpr double most_pilot_rays = 4e6;
-  if (until.total && has_bias(job)) {
-    until.bias = bias_of(job, answer.estimator, target.error, most_pilot_rays, threads, stop);
-    target.bias_squared = until.bias->squared;
-  }
+  const std::vector<double> weights = weights_in_question(job, options.faces, stop);
+  if (until.total && has_bias(job))
+    until.bias = bias_of(job, answer.estimator, target.error, most_pilot_rays, threads, weights, stop);
+  else if (until.total && job.rays_from_file && answer.estimator == sim::Estimator::disc)
+    until.bias = bias_by_radii(job, answer.candidate, answer.threads, weights, stop);
+  if (until.bias) target.bias_squared = until.bias->squared;
   validate::JobSearch search = search_here();
   validate::SharedBatches batches(job, search, stop, ranks);
   validate::UntilOptions stages{.most_rays = limit,
@@ -153,8 +246,8 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
       if (file->due() || stop.stop_requested()) file->write(validate::json_of(answer.candidate, state(), so_far));
     };
   validate::ExecutedUntil found = validate::execute_until(
-      [&](std::uint64_t rays, std::uint64_t following) { return batches.next(rays, following); },
-      validate::weights_of(job), target, stages, std::move(before), save);
+      [&](std::uint64_t rays, std::uint64_t following) { return batches.next(rays, following); }, weights, target,
+      stages, std::move(before), save);
   if (found.result.reason == validate::StopReason::time) batches.roll_call();
   sim::Outcome& outcome = answer.run.outcome = std::move(found.outcome);
   outcome.irradiance = std::move(found.result.irradiance);
@@ -170,8 +263,8 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   until.result = std::move(found.result);
   if (!until.bias && has_bias(job) && until.result.reason != validate::StopReason::time) try {
       constexpr double share = 0.25;  // of the run's rays: the user asked for noise alone
-      until.bias =
-          bias_of(job, answer.estimator, target.error, share * static_cast<double>(until.result.rays), threads, stop);
+      until.bias = bias_of(job, answer.estimator, target.error, share * static_cast<double>(until.result.rays), threads,
+                           weights, stop);
     } catch (const sim::Stopped&) {       // the answer is complete without it
     } catch (const validate::NoLight&) {  // nor is a bias known
     }
@@ -198,6 +291,10 @@ Json to_json(const UntilAnswer& until) {
     json["bias_estimate"] = std::sqrt(std::max(0.0, until.bias->squared.mean));
     json["bias_squared"] = {{"value", until.bias->squared.mean},
                             {"standard_error", until.bias->squared.standard_error}};
+    const validate::RootInterval interval = until.bias->interval();
+    json["bias_interval"] = {interval.low, interval.high};
+    json["mean_bias"] = until.bias->mean.standard_error > 0 ? Json(until.bias->mean.mean) : Json();
+    json["bias_by"] = until.bias->by;
     json["bias_seconds"] = until.bias->seconds;
     json["radius_for_target"] = until.bias->radius > 0 ? Json(until.bias->radius) : Json();
   }
@@ -231,10 +328,13 @@ std::string until_text(const UntilAnswer& until, double side) {
       break;
   }
   if (!until.bias) return text + "\n";
-  text +=
-      fmt::format("The bias at this radius is about {}, the total {} ({} to {}).",
-                  percent_words(std::sqrt(std::max(0.0, until.bias->squared.mean))), percent_words(until.error().value),
-                  percent_words(until.error().low), percent_words(until.error().high));
+  const validate::RootInterval bias = until.bias->interval();
+  text += fmt::format("The bias at this radius is {}, the total {} ({} to {}), by {}.",
+                      bias.low > 0 ? fmt::format("{} ({} to {})", percent_words(bias.value), percent_words(bias.low),
+                                                 percent_words(bias.high))
+                                   : "at most " + percent_words(bias.high),
+                      percent_words(until.error().value), percent_words(until.error().low),
+                      percent_words(until.error().high), until.bias->by);
   if (until.bias->squared.mean > until.target * until.target)
     text +=
         until.bias->radius > 0

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "agreed.hpp"
+#include "detp/sim/scene/selection.hpp"
 #include "detp/validate/stopping/execute_until.hpp"
 #include "run_report.hpp"
 
@@ -17,6 +18,7 @@ struct TargetOptions {
   std::string confidence = "95%";
   std::optional<std::string> checkpoint;
   bool resume = false;
+  sim::FaceNames faces;  ///< whose samples the error is of; none: all
 
   [[nodiscard]] bool given() const { return noise || error; }
   /// Without bias. Throws std::invalid_argument for both targets, and for numbers out of (0, 1).

@@ -2,7 +2,8 @@
 //
 //   cmake --build build --target accuracy_study && build/accuracy_study TABLE.csv [--scenes @cornell,bunny.obj]
 //
-// A row for each scene, estimator, setting and number of rays: from 8 runs with their own seeds at 2000 samples, spread by area.
+// A row for each scene, estimator, setting and number of rays (of gather: backward paths of each sample): from 8 runs with their own
+// seeds at up to 2000 of the scene's samples, by area.
 // Rows that the table has are not made again. Then it prints which estimator is best in each scene, with equal photons and in equal time.
 
 #include <fmt/format.h>
@@ -28,6 +29,7 @@ using namespace detp;
 
 constexpr std::size_t runs = 8;
 constexpr std::array all_rays{std::size_t{10'000}, std::size_t{100'000}, std::size_t{1'000'000}};
+constexpr std::array all_paths{std::uint64_t{16}, std::uint64_t{64}, std::uint64_t{256}};
 
 /// Settings with one radius, and those that do not use it with the first.
 std::vector<validate::AccuracySetting> settings_of(double radius, bool first) {
@@ -54,7 +56,7 @@ class Study {
 
   void run(std::vector<validate::AccuracyRow>& all) {
     const bool done = std::ranges::count_if(all, [&](const auto& row) { return row.scene == label_; }) >=
-                      static_cast<std::ptrdiff_t>(all_rays.size() * rows_of_rays());
+                      static_cast<std::ptrdiff_t>(all_rays.size() * rows_of_rays() + all_paths.size());
     if (done) return;
     std::erase_if(all, [&](const auto& row) { return row.scene == label_; });
     const validate::Reference reference = validate::make_reference(scene_);
@@ -76,7 +78,7 @@ class Study {
             if (settings[i].estimator == sim::Estimator::nearest &&
                 static_cast<std::size_t>(settings[i].nearest) > paths.rays.size() / 4)
               continue;
-            found[i].push_back(maker.estimate(paths, reference.samples, settings[i]).irradiance);
+            found[i].push_back(maker.estimate(paths, reference.judged.samples, settings[i]).irradiance);
             times[i].trace += traced / runs;
             if (seed == 1) times[i].estimate = maker.estimate(paths, scene_.samples, settings[i]).seconds.total();
           }
@@ -86,12 +88,28 @@ class Study {
             all.push_back(row_of(settings[i], share, static_cast<double>(rays), photons,
                                  validate::split_error(found[i], reference.values()), times[i], reference));
       }
+    for (const std::uint64_t paths : all_paths) all.push_back(gathered(maker, reference, paths));
     std::ofstream csv(table_);
     csv << validate::accuracy_header();
     for (const validate::AccuracyRow& row : all) csv << csv_row(row);
   }
 
  private:
+  /// Seconds are those at the judged samples, in proportion.
+  [[nodiscard]] validate::AccuracyRow gathered(const validate::ReplicateMaker& maker,
+                                               const validate::Reference& reference, std::uint64_t paths) const {
+    const auto& judged = reference.judged.samples;
+    std::vector<std::vector<double>> found;
+    const sim::Stopwatch watch;
+    for (std::uint64_t seed = 1; seed <= runs; ++seed) {
+      std::vector<double>& run = found.emplace_back();
+      for (const sim::PathSums& sums : maker.gather(judged, paths, 1000 + seed)) run.push_back(sums.irradiance());
+    }
+    const double samples = static_cast<double>(scene_.samples.size()) / static_cast<double>(judged.size());
+    return row_of({.estimator = sim::Estimator::gather}, 0, static_cast<double>(paths), 0,
+                  validate::split_error(found, reference.values()), {0, samples * watch.seconds() / runs}, reference);
+  }
+
   static std::size_t rows_of_rays() { return 3 * validate::radii_over_distance.size() + 4; }
 
   [[nodiscard]] validate::AccuracyRow row_of(const validate::AccuracySetting& setting, double share, double rays,
