@@ -118,6 +118,19 @@ double BackwardPaths::irradiance(const Sample& sample, std::uint64_t number, std
   return straight + walk_->from_surfaces(place, normal, numbers);
 }
 
+void BackwardPaths::add(const Sample& sample, std::uint64_t number, std::uint64_t paths, bool front_facing,
+                        PathSums& sums) const {
+  for (; sums.paths < paths; ++sums.paths)
+    for (const bool front : {true, false}) {
+      if (!front && front_facing) continue;
+      const double one = irradiance(sample, number, sums.paths, front);
+      (front ? sums.front : sums.back) += one;
+      (front ? sums.front_squares : sums.back_squares) += one * one;
+      sums.largest = std::max(sums.largest, one);
+      sums.lit += one > 0 ? 1 : 0;
+    }
+}
+
 bool misses_light(const Scene& scene) {
   const bool narrow = std::ranges::any_of(scene.lights, [](const Light& light) {
     const LightKind kind = kind_of(light);
@@ -142,15 +155,7 @@ void add_backward_paths(const BackwardPaths& walk, std::span<const Sample> sampl
     for (std::size_t i = part.begin(); i != part.end(); ++i)
       while (sums[i].paths < paths) {
         if (stop.stop_requested()) return;
-        PathSums more = sums[i];
-        for (std::uint64_t k = 0; k < paths_in_a_round; ++k, ++more.paths)
-          for (const bool front : {true, false}) {
-            if (!front && front_facing) continue;
-            const double one = walk.irradiance(samples[i], i, more.paths, front);
-            (front ? more.front : more.back) += one;
-            (front ? more.front_squares : more.back_squares) += one * one;
-          }
-        sums[i] = more;
+        walk.add(samples[i], i, std::min(paths, sums[i].paths + paths_in_a_round), front_facing, sums[i]);
       }
   });
 }

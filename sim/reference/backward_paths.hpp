@@ -12,6 +12,21 @@
 
 namespace detp::sim {
 
+/// Sums of the paths of one sample.
+struct PathSums {
+  std::uint64_t paths = 0;  ///< on each side
+  double front = 0;
+  double back = 0;
+  double front_squares = 0;
+  double back_squares = 0;
+  double largest = 0;     ///< brought by one path
+  std::uint64_t lit = 0;  ///< paths that brought light, of both sides
+
+  [[nodiscard]] double irradiance() const { return (front + back) / static_cast<double>(paths); }
+  /// Of the mean of the paths.
+  [[nodiscard]] double variance() const;
+};
+
 /// Irradiance at samples by paths that start at the samples and look for the lights. Nothing is blurred: the estimate has no bias,
 /// only variance. A photon's path and a backward path pass the same surfaces with the same probabilities (scatter.hpp), so both
 /// estimate the same irradiance: that of both faces, or of the front.
@@ -32,6 +47,8 @@ class BackwardPaths {
 
   /// Path number `path` of sample number `number`, on the side of its normal or on the other.
   [[nodiscard]] double irradiance(const Sample& sample, std::uint64_t number, std::uint64_t path, bool front) const;
+  /// Adds the sample's paths up to number `paths` - 1 to its sums; with front_facing those of the front alone.
+  void add(const Sample& sample, std::uint64_t number, std::uint64_t paths, bool front_facing, PathSums& sums) const;
 
  private:
   struct Walk;
@@ -41,21 +58,8 @@ class BackwardPaths {
 /// Whether some light reaches surfaces on ways that no backward path finds.
 [[nodiscard]] bool misses_light(const Scene& scene);
 
-/// Sums of the paths of one sample.
-struct PathSums {
-  std::uint64_t paths = 0;  ///< on each side
-  double front = 0;
-  double back = 0;
-  double front_squares = 0;
-  double back_squares = 0;
-
-  [[nodiscard]] double irradiance() const { return (front + back) / static_cast<double>(paths); }
-  /// Of the mean of the paths.
-  [[nodiscard]] double variance() const;
-};
-
 /// Adds paths up to number `paths` - 1 of each sample, on all threads of the caller's arena. Samples that a stop request came before
-/// keep their sums; each sample has whole rounds of 64 paths. With front_facing, only the front counts.
+/// keep their sums. With front_facing, only the front counts.
 void add_backward_paths(const BackwardPaths& walk, std::span<const Sample> samples, std::uint64_t paths,
                         bool front_facing, std::span<PathSums> sums, const std::stop_token& stop = {});
 
