@@ -18,6 +18,10 @@ namespace {
 
 constexpr double even_share = 0.1;  // of the photons, spread evenly over the lights
 
+bool extends(LightKind kind) {
+  return kind == LightKind::area || kind == LightKind::surface || kind == LightKind::environment;
+}
+
 }  // namespace
 
 Lights::Lights(const Scene& scene) {
@@ -41,7 +45,8 @@ Lights::Lights(const Scene& scene) {
     const double own = scene.lights[i].flux;
     if (own == 0) continue;
     const double probability = shining == 1 ? 1 : (1 - even_share) * own / flux + even_share / shining;
-    shares_.push_back({std::move(emitters[i]), sum += probability, own / probability});
+    shares_.push_back(
+        {std::move(emitters[i]), sum += probability, own / probability, extends(kind_of(scene.lights[i]))});
   }
 }
 

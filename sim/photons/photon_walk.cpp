@@ -45,6 +45,15 @@ PhotonWalk::PhotonWalk(const Scene& scene, std::uint64_t seed, std::shared_ptr<c
   gap_ = gap_share * reach_;
 }
 
+bool PhotonWalk::is_missed_backwards(std::uint64_t photon) const {
+  if (lights_.has_extent(photon)) return false;
+  const PhotonStart from = lights_.photon(photon, uniform4(seed_, Stream::photons, photon)).start;
+  const auto hit = caster_->first_intersection(caster_->to_caster(from.origin), from.direction, from.triangle);
+  if (!hit) return false;
+  const Side side = side_met(materials_, hit->triangle, hit->normal, from.direction);
+  return uniform4(seed_, Stream::photons, photon, 1)[0] >= side.material.diffuse;
+}
+
 /// Distance to where a photon leaves the scene; 0 if it starts outside.
 double PhotonWalk::distance_out(const PhotonStart& from) const {
   const double along = glm::dot(from.origin, from.direction);

@@ -34,6 +34,10 @@ class PhotonWalk {
   /// Power of photon number `photon`.
   [[nodiscard]] double power(std::uint64_t photon) const { return lights_.power(photon); }
 
+  /// Whether photon number `photon` comes from a light without extent, and the surface that it meets first is none at which it is
+  /// scattered diffusely. Then no backward path finds what it brings to later surfaces (sim/reference/backward_paths.hpp).
+  [[nodiscard]] bool is_missed_backwards(std::uint64_t photon) const;
+
   /// Walks photon number `photon` and tells the recorder, in order, of
   ///   piece(ray, landing): a straight piece of the path, as photon_paths describes, with the photon's power; `landing` is
   ///     the distance from the ray's origin to the surface that the photon met, `unbounded` if it met none;
