@@ -86,7 +86,7 @@ class PilotMaker {
       return options.estimators.empty() || std::ranges::find(options.estimators, one) != options.estimators.end();
     };
     for (const sim::EstimatorRecord& record : sim::estimators)
-      if (all(record.estimator)) pilot_.estimators.push_back(with_settings(record.estimator));
+      if (all(record.estimator) && !record.needs_scene) pilot_.estimators.push_back(with_settings(record.estimator));
   }
 
   AccuracyPilot make() && {

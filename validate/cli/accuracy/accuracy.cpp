@@ -67,9 +67,10 @@ std::vector<sim::Estimator> estimators_of(const AccuracyOptions& options) {
   std::vector<sim::Estimator> chosen;
   for (const std::string& text : options.estimators) {
     const auto found = std::ranges::find(sim::estimators, std::string_view(text), &sim::EstimatorRecord::name);
-    if (found == sim::estimators.end()) {
+    if (found == sim::estimators.end() || found->needs_scene) {
       std::vector<std::string_view> names;
-      for (const sim::EstimatorRecord& one : sim::estimators) names.push_back(one.name);
+      for (const sim::EstimatorRecord& one : sim::estimators)
+        if (!one.needs_scene) names.push_back(one.name);
       throw std::invalid_argument(
           fmt::format("there is no estimator {}; there are {}", detp::quoted(text), fmt::join(names, ", ")));
     }
