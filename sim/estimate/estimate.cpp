@@ -39,6 +39,12 @@ void refuse_options(const RunOptions& options, std::string_view estimator) {
     throw std::invalid_argument(fmt::format("{} needs all rays at once, so it adds to no totals", estimator));
 }
 
+Outcome by_paths(const Problem& problem, const EstimateRequest& request, const RunOptions& options) {
+  if (request.scene == nullptr) throw std::invalid_argument("gather needs a scene: its surfaces and lights");
+  check_options(options, problem);
+  return run(problem, *prepare_gather(*request.scene, request.paths, request.seed, options), options);
+}
+
 Outcome by_surfaces(const Problem& problem, const EstimateRequest& request, const RunOptions& options) {
   require_surfaces(problem, request);
   const auto prepare = request.estimator == Estimator::area_corrected ? prepare_area_corrected : prepare_triangle_hits;
@@ -59,10 +65,12 @@ Outcome by_estimator(const Problem& problem, const EstimateRequest& request, con
                  options);
     case Estimator::area_corrected:
     case Estimator::triangle_hits:
+    case Estimator::gather:
       break;
   }
   refuse_options(options, name(request.estimator));
-  return by_surfaces(problem, request, options);
+  return request.estimator == Estimator::gather ? by_paths(problem, request, options)
+                                                : by_surfaces(problem, request, options);
 }
 
 }  // namespace

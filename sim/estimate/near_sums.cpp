@@ -1,13 +1,10 @@
 #include "near_sums.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 
-#include "detp/sim/base/parallel.hpp"
-#include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/irradiance.hpp"
+#include "each_disc.hpp"
 
 namespace detp::sim {
 namespace {
@@ -18,26 +15,6 @@ struct DiscSums {
   double power = 0;
   double area = 0;
   double most_weight = 0;
-  bool done = false;
-};
-
-/// Reports the share of the discs that are done, from any thread.
-class DiscProgress {
- public:
-  DiscProgress(const RunOptions& options, std::size_t discs) : options_(options), discs_(discs) {}
-
-  void done() {
-    const std::size_t before = done_++;
-    if (!options_.progress || before % 64 != 0) return;
-    const std::lock_guard lock(one_at_a_time_);
-    options_.progress(static_cast<double>(done_ - 1) / static_cast<double>(discs_));
-  }
-
- private:
-  const RunOptions& options_;
-  std::size_t discs_;
-  std::atomic<std::size_t> done_ = 0;
-  std::mutex one_at_a_time_;
 };
 
 /// Adds the landings of one disc, which are brought into the order of their rays.
@@ -52,7 +29,6 @@ void add(const Problem& problem, Near& near, bool errors, DiscSums& sums) {
   }
   sums.photons.close(unit);
   sums.area = near.area;
-  sums.done = true;
 }
 
 /// Largest power of one photon at any disc, whatever the discs' weights.
@@ -76,29 +52,19 @@ void sum_near(const Problem& problem, const RunOptions& options,
   const std::size_t discs = problem.discs().size();
   std::vector<DiscSums> sums(discs);
   resize_results(discs, options.standard_error, outcome);
-  DiscProgress progress(options, discs);
-  const std::size_t chunks = (discs + discs_at_once - 1) / discs_at_once;
-  on_threads(thread_count(options.threads), [&] {
-    parallel_for(ParallelRange(0, chunks, 1), [&](const ParallelRange& part) {
-      Near near;
-      for (std::size_t chunk = part.begin(); chunk != part.end(); ++chunk)
-        for (std::size_t i = chunk * discs_at_once; i < std::min(discs, (chunk + 1) * discs_at_once); ++i) {
-          if (options.stop.stop_requested()) return;
-          progress.done();
-          near.clear();
-          find(static_cast<std::uint32_t>(i), near);
-          outcome.hits[i] = near.landed.size();
-          add(problem, near, options.standard_error, sums[i]);
-        }
-    });
+  const std::vector<char> done = for_each_disc(options, discs, discs_at_once, [&] {
+    return [&, near = Near{}](std::size_t i) mutable {
+      near.clear();
+      find(static_cast<std::uint32_t>(i), near);
+      outcome.hits[i] = near.landed.size();
+      add(problem, near, options.standard_error, sums[i]);
+      return true;
+    };
   });
   const double heaviest_power = heaviest(sums, problem.largest_power());
   const auto photons = static_cast<double>(problem.photons_to());
-  outcome.stopped = false;
   for (std::size_t i = 0; i < discs; ++i) {
     const DiscSums& one = sums[i];
-    outcome.stopped = outcome.stopped || !one.done;
-    outcome.total_hits += outcome.hits[i];
     outcome.irradiance[i] = one.area > 0 ? one.power / one.area : 0;
     if (!options.standard_error) continue;
     const double weight = one.most_weight > 0 ? one.most_weight : 1;
@@ -108,14 +74,8 @@ void sum_near(const Problem& problem, const RunOptions& options,
     outcome.standard_error[i] = one.area > 0 ? error.standard_error / one.area : unbounded;
     outcome.upper_bound[i] = one.area > 0 ? error.upper_bound / one.area : unbounded;
   }
-  outcome.counts.hits = outcome.total_hits;
   outcome.progress = {problem.rays().size(), problem.rays().size()};
-  if (!outcome.stopped) return;
-  outcome.done_discs.resize(discs);
-  for (std::size_t i = 0; i < discs; ++i) outcome.done_discs[i] = sums[i].done;
-  outcome.standard_error.clear();
-  outcome.upper_bound.clear();
-  keep_done_discs(outcome);
+  add_up_discs(done, outcome);
 }
 
 }  // namespace detp::sim

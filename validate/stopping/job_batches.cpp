@@ -23,6 +23,10 @@ std::optional<double> farthest_of(const sim::Problem& problem) {
 }  // namespace
 
 void require_batches(sim::Estimator estimator) {
+  if (sim::record_of(estimator).needs_scene)
+    throw std::invalid_argument(fmt::format(
+        "the estimator {} traces no photons, so it cannot run until an error is reached: more paths, less noise",
+        name(estimator)));
   if (estimator == sim::Estimator::nearest || estimator == sim::Estimator::variable_radius)
     throw std::invalid_argument(
         fmt::format("the estimator {} needs all its rays at once, and cannot run until an error is reached: detp "

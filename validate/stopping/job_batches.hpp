@@ -80,7 +80,7 @@ class JobSearch {
   sim::SearchScratch scratch_;
 };
 
-/// Throws std::invalid_argument for an estimator that needs all its rays at once.
+/// Throws std::invalid_argument for an estimator that needs all its rays at once, or none.
 void require_batches(sim::Estimator estimator);
 
 /// Weights of the job's discs for errors: the area around the scene's samples (area_weights), else the discs' own.
