@@ -20,6 +20,9 @@ namespace detp::sim {
 namespace {
 
 constexpr std::uint64_t most_bounces = 1000;  // as a photon has
+// Paths that start in glass may never leave it. After so many bounces without a diffuse one, they end by chance.
+constexpr int bounces_in_glass = 64;
+constexpr double goes_on = 0.98;
 constexpr std::uint64_t paths_in_a_round = 64;
 
 /// The random numbers of one path: four for each of its decisions.
@@ -82,6 +85,7 @@ struct BackwardPaths::Walk {
     look.density = glm::dot(normal, look.direction) * std::numbers::inv_pi;
     double weight = std::numbers::pi;
     double sum = 0;
+    int since_diffuse = 0;
     for (std::uint64_t bounce = 0; bounce < most_bounces; ++bounce) {
       look.origin = caster->to_scene(place.point);
       const auto hit = caster->first_intersection(place.point, look.direction, place.triangle);
@@ -99,7 +103,12 @@ struct BackwardPaths::Walk {
       place = {place.point + hit->distance * look.direction, hit->triangle};
       look.direction = *next;
       look.density = unbounded;
+      if (++since_diffuse > bounces_in_glass) {
+        if (numbers.next()[0] >= goes_on) return sum;
+        weight /= goes_on;
+      }
       if (random[0] < material.diffuse) {
+        since_diffuse = 0;
         sum += weight * std::numbers::inv_pi * from_light(place, side, numbers.next());
         look.density = glm::dot(side, *next) * std::numbers::inv_pi;
       } else if (glm::dot(*next, side) < 0) {

@@ -266,7 +266,9 @@ AccuracyPilot PilotMaker::make(double rays, std::uint64_t paths, const AccuracyP
   Runs all(*this, rays, before);
   if (options_.progress) options_.progress({"pilot: backward paths", 0, 1});
   judge_->add_paths(paths);
-  judge_->add_photons(static_cast<std::size_t>(rays / batches_of_missed_light), batches_of_missed_light);
+  const double more = static_cast<double>(paths) / static_cast<double>(first_paths());
+  judge_->add_photons(static_cast<std::size_t>(more * usual_pilot_rays / batches_of_missed_light),
+                      batches_of_missed_light);
   const Reference& by_paths = judge_->reference();
   AccuracyPilot pilot = std::move(all).make(options_.reference != nullptr ? *options_.reference : by_paths, by_paths);
   pilot.seconds = watch.seconds();

@@ -101,13 +101,15 @@ void ReferenceMaker::add_paths(std::uint64_t paths) {
 void ReferenceMaker::add_photons(std::size_t rays, int batches) {
   if (!misses_light_) return;
   const sim::Stopwatch watch;
+  if (rays > rays_of_batch_) missed_.clear();  // smaller batches would add their noise
+  rays_of_batch_ = rays;
   for (int i = 0; i < batches; ++i) missed_.push_back(missed_by_photons(rays));
   reference_.seconds += watch.seconds();
 }
 
 std::vector<double> ReferenceMaker::missed_by_photons(std::size_t rays) {
   // apart from the seeds of the runs that are judged
-  const std::uint64_t seed = (options_.seed << 20) + (std::uint64_t{1} << 63) + missed_.size();
+  const std::uint64_t seed = (options_.seed << 20) + (std::uint64_t{1} << 63) + batches_made_++;
   const sim::Paths traced = sim::photon_paths(scene_, rays, seed, caster_, options_.stop);
   const sim::Paths missed = sim::missed_light(scene_, caster_, seed, traced);
   reference_.photons += traced.photon_count;

@@ -74,7 +74,7 @@ class ReferenceMaker {
   /// Adds paths until each sample has so many. Throws sim::Stopped if a stop request came before each sample has some.
   void add_paths(std::uint64_t paths);
   /// If backward paths miss light: adds batches of about so many pieces of photon paths, at least four of them before the reference is
-  /// complete. Throws sim::Stopped.
+  /// complete; in place of those before if these are larger. Throws sim::Stopped.
   void add_photons(std::size_t rays, int batches);
   [[nodiscard]] bool misses_light() const { return misses_light_; }
 
@@ -93,6 +93,8 @@ class ReferenceMaker {
   bool misses_light_;
   std::vector<sim::PathSums> sums_;
   std::vector<std::vector<double>> missed_;  ///< by each batch
+  std::size_t rays_of_batch_ = 0;
+  std::uint64_t batches_made_ = 0;
   std::unique_ptr<const sim::Index> surfaces_;
   double path_seconds_ = 0;
   Reference reference_;
