@@ -101,6 +101,29 @@ class Calls(unittest.TestCase):
             # Another job may delay an end, but not each of three.
             self.assertTrue(any(seconds_after_ctrl_c(after, work) < 2 for attempt in range(3)))
 
+    def test_irradiance_by_paths_in_a_scene(self) -> None:
+        floor = detp.Discs([[0.5, 0, 0.5], [0.3, 0, 0.6]], [[0, 1, 0], [0, 3, 0]], 1)
+        found = detp.gather("@furnace", floor, paths=500, threads=1)
+        self.assertTrue((abs(found.irradiance - 2 * np.pi) < 4 * found.standard_error).all())
+        self.assertTrue((found.upper_bound > found.irradiance).all())
+        self.assertEqual(found.hits.tolist(), [500, 500])  # none outside of the box
+        self.assertEqual((found.missed_share, found.missed_bound), (0, 0))
+        self.assertEqual(detp.gather("@furnace", floor, paths=500).irradiance.tolist(), found.irradiance.tolist())
+        self.assertEqual(detp.gather("@furnace", floor, paths=500, front_facing=True).irradiance.tolist(),
+                         found.irradiance.tolist())
+        missing = detp.gather("@caustic", floor)
+        self.assertTrue(0.01 < missing.missed_share < missing.missed_bound < 1)
+        self.assertIn("missed", repr(missing))
+        for scene, paths, kind in [("@uniform", 1, ValueError), ("none.obj", 1, OSError), ("@furnace", 0, ValueError)]:
+            with self.assertRaises(kind):
+                detp.gather(scene, floor, paths=paths)
+
+        def stop(what: str, share: float) -> None:
+            raise LookupError(what)
+
+        with self.assertRaises(LookupError):
+            detp.gather("@furnace", floor, paths=2**30, progress=stop)
+
     def test_a_search_until_an_error_ends_there(self) -> None:
         discs = detp.Discs(*some_discs(500), 0.2)
         plan = detp.plan(discs, detp.Rays(*some_rays(1000)))

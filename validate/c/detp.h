@@ -232,6 +232,39 @@ typedef struct detp_estimate {
 DETP_API detp_status detp_search_until(const detp_plan *plan, detp_next_rays next, void *next_user, const detp_target *target,
                                        detp_progress progress, void *user, detp_estimate *estimate, detp_error *error);
 
+/* ---- without rays ---- */
+
+typedef struct detp_gather_options {
+  size_t size;
+  uint64_t paths;   /* that start at each sample, on each side that counts, and look for the lights; at most 2^32; 0: 64 */
+  uint64_t seed;    /* of the paths */
+  int front_facing; /* not 0: only light on the side of the normal counts */
+  int threads;      /* 0: all cores */
+  detp_progress progress;
+  void *user;
+} detp_gather_options;
+
+/* Arrays have an element for each sample, or are null if they are not wanted. */
+typedef struct detp_gathered {
+  size_t size;
+  uint64_t *hits;         /* paths that brought light */
+  double *irradiance;     /* at the sample: not blurred, without bias */
+  double *standard_error; /* of it; infinite if fewer than two paths brought light; weak where a few bring most of it */
+  double *upper_bound;    /* one-sided, 95 %; infinite if no path of any sample brought light */
+  /* set by the call: */
+  double missed_share; /* of all light that lands on surfaces, what no backward path finds: that of points, spots and directional
+                        * lights by way of mirrors, gloss or glass; the irradiance is without it; measured by some photons */
+  double missed_bound; /* one-sided, 95 %, of that share; 0: all light is found */
+  double seconds;      /* without reading the scene */
+  int stopped;         /* not 0: samples that were not reached have 0 hits and irradiance 0 */
+} detp_gathered;
+
+/* The irradiance at samples in a scene: a mesh file, or a built-in one as "@cornell", with its own lights, or without any an area light.
+ * The radii of the discs do not matter. The same bytes with any number of threads. options may be null. If it was stopped, returns
+ * DETP_STOPPED, and sets what it has. */
+DETP_API detp_status detp_gather(const char *scene, const detp_discs *discs, const detp_gather_options *options,
+                                 detp_gathered *gathered, detp_error *error);
+
 /* ---- without data ---- */
 
 /* Rays and samples that are only known by their numbers: isotropic lines, uniform samples in a cube. */

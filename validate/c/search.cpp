@@ -1,25 +1,11 @@
-#include <limits>
-
 #include "counts.hpp"
 #include "guard.hpp"
 #include "handles.hpp"
 #include "progress.hpp"
+#include "results.hpp"
 #include "views.hpp"
 
 using namespace detp;
-
-namespace {
-
-template <class T>
-void copy(const std::vector<T>& values, T* to, std::size_t count) {
-  if (to == nullptr) return;
-  if (values.size() == count)
-    std::copy(values.begin(), values.end(), to);
-  else
-    std::fill(to, to + count, std::numeric_limits<T>::quiet_NaN());  // of a stopped search, errors are not known
-}
-
-}  // namespace
 
 extern "C" {
 
@@ -42,10 +28,7 @@ detp_status detp_search(const detp_plan* plan, const detp_rays* rays, detp_scrat
     const sim::Outcome& outcome = validate::execute(one.plan, view, memory.memory, wanted);
     memory.discs = one.discs;
     memory.has_pairs = own.pairs != 0 && !outcome.stopped;
-    copy(outcome.hits, ours.hits, one.discs);
-    copy(outcome.irradiance, ours.irradiance, one.discs);
-    copy(outcome.standard_error, ours.standard_error, one.discs);
-    copy(outcome.upper_bound, ours.upper_bound, one.discs);
+    c::copy_results(outcome, one.discs, ours);
     ours.total_hits = outcome.total_hits;
     ours.seconds = outcome.seconds.total();
     ours.reading_seconds = outcome.seconds.prepare;

@@ -43,7 +43,8 @@ std::unique_ptr<const sim::RaySource> Job::field_rays(std::uint64_t count, const
 
 void Job::check_problem(int threads, const std::stop_token& stop) {
   const sim::Stopwatch watch;
-  problem_ = sim::make_problem(paths(), discs, front_facing, threads, stop);
+  problem_ = without_rays ? sim::make_problem_without_rays(discs, 0, front_facing, stop)
+                          : sim::make_problem(paths(), discs, front_facing, threads, stop);
   check_seconds = watch.seconds();
   given = sim::without_effects(*problem_);
   take_numbers(given);
@@ -71,6 +72,11 @@ sim::TracedPaths Job::more_rays(std::uint64_t made, std::uint64_t batch, std::si
 }
 
 void Job::measure() const {
+  if (without_rays) {
+    workload_ = given;
+    observed_ = sim::Observed{.workload = given};
+    return;
+  }
   std::vector<sim::Ray> block;
   std::optional<sim::Problem> of_block;
   if (stream) {

@@ -71,6 +71,8 @@ struct JobRequest {
   bool stream = false;
   /// discs of a file that do not fit in memory stay there if they can be read in any order, and the rays are a stream
   bool store_discs = false;
+  /// discs in a scene alone, for estimators that trace no photons: options that make or change rays are refused
+  bool without_rays = false;
   bool keep_scene = false;  ///< the job keeps the scene: for estimators that look at triangles, and for more_rays
   bool in_batches = false;  ///< its photon paths are the first of many batches, with those of more_rays
   int threads = 1;          ///< for checking rays and discs; 0: all cores
@@ -135,6 +137,7 @@ struct Job {
   std::vector<std::string> warnings;
   bool front_facing = false;
   bool rays_from_file = false;
+  bool without_rays = false;
   double read_seconds = 0;   ///< time for reading or making the scene and the discs, and for reading rays from a file
   double trace_seconds = 0;  ///< time for making rays: tracing photons, or drawing lines
   double check_seconds = 0;  ///< time for checking rays and discs, and for S₀
@@ -155,6 +158,7 @@ struct Job {
                                            const std::stop_token& stop = {}) const;
   /// Measured on discs and rays (of a stream on rays_of_workload: its first, or pieces of a whole file) when it is first asked for; not for use from several threads. Throws
   /// as sim::observe, sim::Stopped on the stop request of `measuring`, and std::invalid_argument as check(Workload).
+  /// Without rays: `given`, and no effects.
   [[nodiscard]] const Workload& workload() const;
   /// The effects, and what finding them cost; as workload().
   [[nodiscard]] const sim::Observed& observed() const;

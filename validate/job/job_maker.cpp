@@ -80,14 +80,16 @@ class JobMaker {
 
   Job make() {
     sim::Stopwatch watch;
+    if (request_.without_rays) refuse_rays();
     progress_.read(request_);
     sim::in_memory("reading the scene", [&] { request_.numbers_alone() ? from_numbers() : from_scene_and_files(); });
     job_.front_facing = request_.front_facing;
     job_.shares = request_.shares;
     job_.seed = request_.seed;
     job_.rays_from_file = request_.ray_file.has_value();
+    job_.without_rays = request_.without_rays;
     job_.read_seconds = watch.lap();
-    sim::in_memory("making rays", [&] { make_rays(); });
+    if (!request_.without_rays) sim::in_memory("making rays", [&] { make_rays(); });
     (job_.rays_from_file ? job_.read_seconds : job_.trace_seconds) += watch.lap();
     progress_.measure(job_.rays.size(), job_.discs.size());
     sim::in_memory("checking rays and discs", [&] { check_rays_and_discs(); });
@@ -99,6 +101,17 @@ class JobMaker {
   }
 
  private:
+  void refuse_rays() const {
+    if (!request_.scene) throw std::invalid_argument("gather needs a scene with triangles and light: name one");
+    const auto refuse = [](bool given, std::string_view option) {
+      if (given) throw std::invalid_argument(fmt::format("gather traces no photons: leave out {}", option));
+    };
+    refuse(request_.rays.has_value(), "--rays");
+    refuse(request_.ray_file.has_value(), "--ray-file");
+    refuse(request_.field.has_value(), "--field");
+    refuse(request_.second_intersection, "--second-intersection");
+  }
+
   void from_numbers() {
     if (request_.crease) throw std::invalid_argument("--crease is for a scene");
     const Workload workload = workload_of_numbers(request_);

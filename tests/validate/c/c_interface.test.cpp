@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "callers_data.hpp"
+#include "detp/sim/open/open_scene.hpp"
 
 using detp::support::Arrays;
 using detp::support::Data;
@@ -180,6 +181,61 @@ TEST_SUITE("c interface") {
     CHECK(detp_plan_create(&discs, &rays, &options, &plan, &error) == DETP_STOPPED);
     CHECK(plan == nullptr);
     detp_scratch_free(&scratch);
+  }
+
+  TEST_CASE("paths in a scene: the irradiance that C++ finds, the light that they miss, refusals and stops") {
+    using namespace detp;
+    const double places[3][3] = {{0.5, 0, 0.5}, {0.3, 0, 0.6}, {0.6, 0, 0.4}};
+    detp_discs samples = DETP_INIT(detp_discs);
+    samples.count = 3;
+    samples.centres = {places, nullptr, nullptr, 0, DETP_DOUBLE};
+    const std::vector<double> zeros(3, 0);
+    const std::vector<double> twos(3, 2);
+    samples.normals = {zeros.data(), twos.data(), zeros.data(), 0, DETP_DOUBLE};
+    std::vector<std::uint64_t> hits(3);
+    std::vector<double> irradiance(3), errors(3), bounds(3);
+    detp_gathered gathered = DETP_INIT(detp_gathered);
+    gathered.hits = hits.data();
+    gathered.irradiance = irradiance.data();
+    gathered.standard_error = errors.data();
+    gathered.upper_bound = bounds.data();
+    detp_gather_options options = DETP_INIT(detp_gather_options);
+    options.paths = 500;
+    options.seed = 4;
+    detp_error error{};
+    REQUIRE(detp_gather("@furnace", &samples, &options, &gathered, &error) == DETP_OK);
+    const sim::Scene furnace = sim::open_scene({.name = "@furnace", .samples = {}});
+    std::vector<sim::Disc> discs;
+    for (const auto& [x, y, z] : places) discs.push_back({{x, y, z}, {0, 1, 0}, 1});
+    const sim::Outcome expected = sim::estimate(
+        sim::make_problem_without_rays(discs, 0),
+        {.estimator = sim::Estimator::gather, .scene = &furnace, .paths = 500, .seed = 4}, {.standard_error = true});
+    CHECK(same_bytes(irradiance, expected.irradiance));
+    CHECK(same_bytes(errors, expected.standard_error));
+    CHECK(same_bytes(bounds, expected.upper_bound));
+    CHECK(hits == expected.hits);
+    CHECK(std::abs(irradiance[0] - *furnace.known_irradiance) < 4 * errors[0]);
+    CHECK(gathered.missed_bound == 0);
+    CHECK(gathered.seconds > 0);
+    REQUIRE(detp_gather("@caustic", &samples, nullptr, &gathered, &error) == DETP_OK);
+    CHECK(gathered.missed_share > 0.01);
+    CHECK(gathered.missed_bound > gathered.missed_share);
+
+    const auto refused = [&](detp_status status, const char* why) {
+      CAPTURE(error.text);
+      CHECK(status != DETP_OK);
+      CHECK(std::strstr(error.text, why) != nullptr);
+    };
+    refused(detp_gather(nullptr, &samples, nullptr, &gathered, &error), "scene is null");
+    refused(detp_gather("@furnace", nullptr, nullptr, &gathered, &error), "discs");
+    refused(detp_gather("@furnace", &samples, nullptr, nullptr, &error), "gathered");
+    refused(detp_gather("@uniform", &samples, nullptr, &gathered, &error), "triangles");
+    refused(detp_gather("none.obj", &samples, nullptr, &gathered, &error), "none.obj");
+    options.paths = std::uint64_t{1} << 40;
+    refused(detp_gather("@furnace", &samples, &options, &gathered, &error), "paths");
+    options.paths = 1U << 30;
+    options.progress = [](void*, const char*, double share) { return share >= 0 ? 1 : 0; };
+    CHECK(detp_gather("@furnace", &samples, &options, &gathered, &error) == DETP_STOPPED);
   }
 
   TEST_CASE("a search until an error ends there, says so, and agrees with one long search") {

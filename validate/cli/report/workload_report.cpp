@@ -102,7 +102,7 @@ Json origin_json(const validate::JobRequest& request, const std::string& scene, 
   if (request.disc_file) json["discs"] = *request.disc_file;
   if (request.ray_file)
     json["ray_file"] = *request.ray_file;
-  else
+  else if (!request.without_rays)
     json["field"] = name(field);
   if (request.crease) json["crease"] = *request.crease;
   json["front_facing"] = request.front_facing;
@@ -171,6 +171,7 @@ std::string describe(const validate::Job& job) {
 }
 
 std::string describe_given(const validate::Job& job, std::string_view before_rays) {
+  if (job.without_rays) return scene_line(job, lights_of(job));
   return scene_line(job, "") + rays_line(job, before_rays, "");
 }
 

@@ -55,7 +55,7 @@ void note_all(const CommonOptions& common, const validate::Job& job);
 /// The lines "scene" and "rays" of the text output; these with the light that left or was cut, if that is much.
 [[nodiscard]] std::string describe(const validate::Job& job);
 
-/// The same without what has to be measured; `before_rays` is written before the number of rays.
+/// The same without what has to be measured; `before_rays` is written before the number of rays. Without rays: the scene and its lights.
 [[nodiscard]] std::string describe_given(const validate::Job& job, std::string_view before_rays = {});
 
 /// "1 thread", "2 threads".

@@ -30,6 +30,7 @@ struct RunOptions {
   WorkloadOptions workload;
   CandidateOptions candidate;
   std::optional<std::string> estimator;
+  std::optional<double> paths;        ///< of gather
   std::optional<std::uint64_t> seed;  ///< of a row, by --seeds
   CostOptions costs;
   int repeat = 0;
@@ -65,6 +66,14 @@ sim::Estimator estimator_of(const RunOptions& options) {
     throw std::invalid_argument(
         fmt::format("the estimator {} searches no pairs: leave out --technique", name(estimator)));
   return estimator;
+}
+
+/// Of gather; 0 of other estimators.
+std::uint64_t paths_of(const RunOptions& options, sim::Estimator estimator) {
+  if (!sim::record_of(estimator).needs_scene) return 0;
+  const double paths = options.paths.value_or(static_cast<double>(sim::paths_by_default));
+  require_count("--paths", paths, 1, 4294967296);
+  return static_cast<std::uint64_t>(paths);
 }
 
 /// The number of threads, at most `most_threads`, on which the closed form predicts the candidate to be fastest.
@@ -125,8 +134,12 @@ std::optional<sim::Share> share_of(const RunOptions& options) {
 }
 
 sim::EstimateRequest request_of(const RunAnswer& answer, const validate::Job& job) {
-  sim::EstimateRequest request{
-      .estimator = answer.estimator, .candidate = answer.candidate, .mesh = job.scene ? &job.scene->mesh : nullptr};
+  sim::EstimateRequest request{.estimator = answer.estimator,
+                               .candidate = answer.candidate,
+                               .mesh = job.scene ? &job.scene->mesh : nullptr,
+                               .scene = job.scene.get(),
+                               .paths = answer.paths,
+                               .seed = job.seed};
   if (const auto* map = std::get_if<PhotonMapParameters>(&answer.candidate.parameters)) {
     request.nearest = map->nearest;
     request.nearest_form = map->form;
@@ -176,8 +189,10 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const validat
 
 /// What the estimators of all rows need.
 struct Needs {
+  bool rays = false;
   bool all_rays = false;  ///< in memory: of estimators that need more than the pairs of a block of rays
   bool scene = false;
+  bool paths = false;  ///< backward
 };
 
 Needs needs_of(RunOptions& options, std::size_t rows) {
@@ -187,8 +202,13 @@ Needs needs_of(RunOptions& options, std::size_t rows) {
     const sim::Estimator estimator = estimator_of(options);
     if (options.target.given()) validate::require_batches(estimator);
     needs.all_rays = needs.all_rays || estimator != sim::Estimator::disc || options.target.given();
-    needs.scene = needs.scene || sim::record_of(estimator).needs_mesh || options.target.given();
+    const sim::EstimatorRecord& record = sim::record_of(estimator);
+    needs.scene = needs.scene || record.needs_mesh || record.needs_scene || options.target.given();
+    needs.paths = needs.paths || record.needs_scene;
+    needs.rays = needs.rays || !record.needs_scene;
+    static_cast<void>(paths_of(options, estimator));
   }
+  if (options.paths && !needs.paths) throw std::invalid_argument("--paths is for --estimator gather");
   return needs;
 }
 
@@ -235,6 +255,7 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
   const Requested choice = by_pilot || until ? Requested{} : agreed(ranks, by_options);
   RunAnswer answer{.candidate = choice.candidate,
                    .estimator = estimator,
+                   .paths = paths_of(options, estimator),
                    .threads = choice.threads,
                    .costs = priced,
                    .engine = options.candidate.engine,
@@ -332,6 +353,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     if (options.target.given() && !request.ray_file) request.rays = first_rays(request.rays);
     request.stream = request.store_discs = !needs.all_rays;
     request.keep_scene = needs.scene;
+    request.without_rays = !needs.rays;
     request.in_batches = options.target.given();
     request.ranks = common.ranks;
     validate::Job job = validate::make_job(request, stop, rows.job(progress.report()));
@@ -345,7 +367,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     const RunAnswer found =
         run_one(options, job, costs.of(options.candidate.engine), common, stop, rows.next(progress.report()));
     if (!common.answers()) return AnswerRow{};
-    if (const std::string why = why_nothing(job, found); !why.empty()) note(common, "warning: " + why);
+    for (const std::string& one : answer_warnings(job, found)) note(common, "warning: " + one);
     stopped = write_hits(options, job, found, common, stop);
     not_reached = found.until && found.until->result.reason != validate::StopReason::target;
     if (expected == 1) text = to_text(job, found, common.screen(), options.verbose);
@@ -353,6 +375,8 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     inputs["engine"] = name(options.candidate.engine);
     inputs["threads"] = sim::thread_count(common.threads);  // a cap if the command chooses
     inputs["repeat"] = options.repeat;
+    inputs.erase("paths");  // of the row before
+    if (gathers(found)) inputs["paths"] = found.paths;
     if (options.target.given()) {
       inputs["materials"] = options.target.faces.materials;
       inputs["groups"] = options.target.faces.groups;
@@ -396,7 +420,12 @@ Command run_command(CLI::App& program) {
       "rays "
       "nearby; nearest: the nearest photons (--nearest); area-corrected: photons near a sample, over the area of the "
       "surfaces "
-      "there; triangle-hits: photons of a triangle, over its area; default: disc");
+      "there; triangle-hits: photons of a triangle, over its area; gather: paths from the sample to the lights, "
+      "without "
+      "photons, radius and bias (--paths); default: disc");
+  options->candidate.lists.add_count(*app, "--paths", Values::many, options->paths,
+                                     "of gather: how many paths start at each disc, on each side that counts, as 1k; "
+                                     "default: 64");
   options->costs.add_calibration_to(*app);
   app->add_option("--share", options->share,
                   "what several processes share, rays or discs; default: rays, or discs if they do not fit in memory");

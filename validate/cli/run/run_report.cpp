@@ -47,12 +47,12 @@ bool is_predicted(const RunAnswer& answer) {
 }
 
 /// The counts that a pilot predicted, or else the closed form; nothing if the candidate has none.
-std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer) {
+std::optional<Counts<double>> prediction(const validate::Job& job, const RunAnswer& answer) {
   if (is_predicted(answer)) return answer.choice->best().counts;
   if (answer.estimator != sim::Estimator::disc) return {};
   if (!model::has_closed_form(answer.candidate.technique)) return {};
   try {
-    return model::predict(workload, answer.candidate, answer.engine);
+    return model::predict(job.workload(), answer.candidate, answer.engine);
   } catch (const std::invalid_argument&) {  // no closed form for these parameters: another order, tree or traversal
     return {};
   }
@@ -116,9 +116,24 @@ std::uint64_t discs_without_hits(const TimedRun& run) {
   return count;
 }
 
+/// What a run without hits met, and the likely reason.
+std::string why_nothing(const validate::Job& job, const RunAnswer& answer) {
+  if (gathers(answer)) return fmt::format("no light: no path of {} discs finds a light", job.disc_count());
+  std::string text =
+      fmt::format("no hits: none of {} rays meets one of {} discs", answer.run.outcome.progress.of, job.disc_count());
+  if (!job.light) return text + ": do the discs lie where the rays are, and are they large enough?";
+  if (job.light->landings == 0) return text + ": no photon meets a surface";
+  return text +
+         fmt::format(
+             ", although photons land {:.3g} times each: do discs lie where the light is? A disc whose normal is "
+             "between those of the faces around, as at a corner that is smooth (--crease), lies beside them; "
+             "--samples N adds samples on faces, and --estimator triangle-hits needs none",
+             static_cast<double>(job.light->landings) / static_cast<double>(job.light->all_photons()));
+}
+
 std::vector<std::string> warnings_of(const validate::Job& job, const RunAnswer& answer) {
   std::vector<std::string> all = job.all_said();
-  if (const std::string why = why_nothing(job, answer); !why.empty()) all.push_back(why);
+  for (std::string& one : answer_warnings(job, answer)) all.push_back(std::move(one));
   return all;
 }
 
@@ -138,8 +153,12 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                               : Json{{"hits", outcome.total_hits},
                                      {"hits_per_disc", hits_per_disc(answer)},
                                      {"mean_irradiance", mean_irradiance(answer)}});
-  json["rays"] = whole(job.given.rays);
-  json["photons"] = job.independent_photons();
+  json["rays"] = gathers(answer) ? whole(0) : whole(job.given.rays);
+  json["photons"] = gathers(answer) ? 0 : job.independent_photons();
+  if (gathers(answer))
+    json.update({{"paths", answer.paths},
+                 {"missed_share", answer.run.missed.share},
+                 {"missed_share_bound", answer.run.missed.upper_bound}});
   if (answer.until) json.update(to_json(*answer.until));
   json["counts"] = to_json(outcome.counts);
   json.update(unit_times(as_expected(outcome.counts), answer.candidate.technique));
@@ -148,7 +167,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
     json["predicted_error"] = to_json(answer.choice->best().counts_error);
     json["predicted_seconds_error"] = answer.choice->best().error;
   }
-  if (const auto predicted = prediction(job.workload(), answer); predicted && !answer.until) {
+  if (const auto predicted = prediction(job, answer); predicted && !answer.until) {
     json["predicted"] = to_json(*predicted);
     json.update(unit_times(*predicted, answer.candidate.technique, "predicted_"));
     const double search =
@@ -166,6 +185,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                {"warnings", warnings_of(job, answer)},
                {"stopped", outcome.stopped}});
   json.update(ledgers_json(job));
+  if (gathers(answer)) json.erase("light");
   if (job.light && answer.until) {
     sim::LightLedger all = *job.light;
     all += answer.until->light;
@@ -240,7 +260,7 @@ std::string_view meaning(std::string_view term) {
 }
 
 std::string counts_table(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
-  const auto predicted = answer.until ? std::nullopt : prediction(job.workload(), answer);
+  const auto predicted = answer.until ? std::nullopt : prediction(job, answer);
   TextTable table({{.head = "count", .align = Align::left},
                    {.head = "counted"},
                    {.head = "predicted"},
@@ -271,8 +291,9 @@ AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer
 }
 
 Columns run_columns() {
-  return workload_columns() + Columns{"estimator", "engine", "threads"} + candidate_columns() +
-         Columns{"k", "k_max", "k_best", "k_published", "k_corrected", "photons", "hits_per_disc", "mean_irradiance"} +
+  return workload_columns() + Columns{"estimator", "paths", "engine", "threads"} + candidate_columns() +
+         Columns{"k",       "k_max",         "k_best",          "k_published",  "k_corrected",
+                 "photons", "hits_per_disc", "mean_irradiance", "missed_share", "missed_share_bound"} +
          count_columns() + count_columns("predicted_") +
          Columns{"rebuild_time", "intersect_time", "predicted_rebuild_time", "predicted_intersect_time"} +
          Columns{"predicted_seconds",
@@ -308,7 +329,7 @@ Columns run_columns() {
 }
 
 TextColumns run_text_columns(const Screen& screen) {
-  return {{"scene", "field", "ray_file", "front_facing", "seed", "rays", "samples", "disc_radius", "estimator",
+  return {{"scene", "field", "ray_file", "front_facing", "seed", "rays", "samples", "disc_radius", "estimator", "paths",
            "engine", "technique", "parameters"},
           {"hits", "rebuild_time", "predicted_rebuild_time", "intersect_time", "predicted_intersect_time", "seconds",
            "predicted_seconds"},
@@ -317,19 +338,16 @@ TextColumns run_text_columns(const Screen& screen) {
           "against discs. Both as in detp model, whose unit costs are 1."};
 }
 
-std::string why_nothing(const validate::Job& job, const RunAnswer& answer) {
-  const sim::Outcome& outcome = answer.run.outcome;
-  if (outcome.stopped || outcome.total_hits > 0) return "";
-  std::string text =
-      fmt::format("no hits: none of {} rays meets one of {} discs", outcome.progress.of, job.disc_count());
-  if (!job.light) return text + ": do the discs lie where the rays are, and are they large enough?";
-  if (job.light->landings == 0) return text + ": no photon meets a surface";
-  return text +
-         fmt::format(
-             ", although photons land {:.3g} times each: do discs lie where the light is? A disc whose normal is "
-             "between those of the faces around, as at a corner that is smooth (--crease), lies beside them; "
-             "--samples N adds samples on faces, and --estimator triangle-hits needs none",
-             static_cast<double>(job.light->landings) / static_cast<double>(job.light->all_photons()));
+std::vector<std::string> answer_warnings(const validate::Job& job, const RunAnswer& answer) {
+  std::vector<std::string> all;
+  if (!answer.run.outcome.stopped && answer.run.outcome.total_hits == 0) all.push_back(why_nothing(job, answer));
+  if (const sim::MissedShare& missed = answer.run.missed; missed.upper_bound > 0)
+    all.push_back(
+        fmt::format("{:.2g} % of the light on surfaces is missing, at most {:.2g} % (95 %, {} photons): it comes from "
+                    "point, spot or directional lights by way of mirrors, gloss or glass, where no backward path "
+                    "finds it; --estimator area-corrected has it",
+                    100 * missed.share, 100 * missed.upper_bound, missed.photons));
+  return all;
 }
 
 std::string to_text(const validate::Job& job, const RunAnswer& answer, const Screen& screen, bool verbose) {
@@ -339,8 +357,12 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
   text += wrapped(describe_given(job, answer.until ? "of the first stage: " : ""), screen.text_width(), 10);
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   if (answer.estimator != sim::Estimator::disc)
-    add(fmt::format("estimator {}{}", name(answer.estimator),
-                    has_technique(answer) ? "" : fmt::format(", {}", threads_text(answer.threads))));
+    add(fmt::format(
+        "estimator {}{}{}", name(answer.estimator),
+        gathers(answer)
+            ? fmt::format(", {} backward paths per disc and side (hits: those that bring light)", answer.paths)
+            : "",
+        has_technique(answer) ? "" : fmt::format(", {}", threads_text(answer.threads))));
   if (has_technique(answer))
     add(fmt::format("technique {}, {} engine, {}", title(answer.candidate), name(answer.engine),
                     threads_text(answer.threads)) +
@@ -348,9 +370,9 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
          : is_predicted(answer) ? fmt::format(", chosen in {:.2g} ms by a pilot of {} rays",
                                               1e3 * answer.choice->choosing_seconds, answer.choice->sampled_rays)
                                 : ", by the numbers of rays and discs: a pilot would take longer than it saves"));
-  if (verbose) add(effects_line(job.observed().effects));
+  if (verbose && !gathers(answer)) add(effects_line(job.observed().effects));
   add("hits      " + hits_text(answer));
-  if (const std::string why = why_nothing(job, answer); !why.empty()) add("warning   " + why);
+  for (const std::string& one : answer_warnings(job, answer)) add("warning   " + one);
   add(
       fmt::format("seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}{}; not included: "
                   "reading {:.3g}, making rays {:.3g}",

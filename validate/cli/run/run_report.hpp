@@ -43,6 +43,7 @@ struct UntilAnswer {
 struct RunAnswer {
   Candidate candidate = {};  ///< of an estimator that uses none, without meaning
   sim::Estimator estimator = sim::Estimator::disc;
+  std::uint64_t paths = 0;                      ///< of gather
   int threads = 1;                              ///< on which it ran
   CostTable costs = {};                         ///< with which the candidate was chosen and its time predicted
   std::optional<validate::Choice> choice = {};  ///< by which the candidate was chosen, with its rays in memory
@@ -55,8 +56,11 @@ struct RunAnswer {
   bool random_rays = false;  ///< true for rays of a random field: the first rays are representative of all rays
 };
 
-/// What a run without hits met, and the likely reason; empty if there are hits.
-[[nodiscard]] std::string why_nothing(const validate::Job& job, const RunAnswer& answer);
+/// What a run without hits met, and the likely reason; the light that is missing.
+[[nodiscard]] std::vector<std::string> answer_warnings(const validate::Job& job, const RunAnswer& answer);
+
+/// The estimator needs no rays.
+[[nodiscard]] inline bool gathers(const RunAnswer& answer) { return sim::record_of(answer.estimator).needs_scene; }
 
 /// Whether a technique found the pairs, or the nearest photons.
 [[nodiscard]] inline bool has_technique(const RunAnswer& answer) {

@@ -5,6 +5,8 @@
 
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/rank/registry.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/ranked.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/base/search_work.hpp"
@@ -33,7 +35,7 @@ TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, 
   const std::string doing(pairs ? name(candidate.technique) : name(request.estimator));
   const double work = progress && pairs ? predicted_work(job.given, candidate, options.engine) : 0;
   const double block = job.stream ? static_cast<double>(sim::block_in_memory(job.disc_count())) : job.given.rays;
-  const double each = std::min(1.0, block / job.given.rays);  // a block's share of the rays
+  const double each = std::min(1.0, block / std::max(1.0, job.given.rays));  // a block's share of the rays
   const auto show = [&](double done) {
     if (progress) progress({doing, done, std::min(1.0, done + each), each * work});
   };
@@ -56,7 +58,17 @@ TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, 
             std::move(ranked.seconds),   share,
             std::move(ranked.results)};
   }
-  return {sim::estimate(job.problem(), request, reporting), job.check_seconds, 0, job.rays.size()};
+  TimedRun run{.outcome = sim::estimate(job.problem(), request, reporting), .prepare_seconds = job.check_seconds};
+  if (!sim::record_of(request.estimator).needs_scene) {
+    run.rays_in_memory = job.rays.size();
+    return run;
+  }
+  const sim::Stopwatch watch;
+  sim::on_threads(sim::thread_count(options.threads), [&] {
+    run.missed = sim::missed_share(*job.scene, job.caster, job.seed, sim::photons_of_share, options.stop);
+  });
+  run.prepare_seconds += watch.seconds();
+  return run;
 }
 
 Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const TimedRun& counted, int repeat,

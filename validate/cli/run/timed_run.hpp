@@ -5,6 +5,7 @@
 
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/estimate/estimate.hpp"
+#include "detp/sim/reference/missed_light.hpp"
 #include "detp/sim/technique/ranked.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/job/job.hpp"
@@ -21,6 +22,7 @@ struct TimedRun {
   sim::Share share = sim::Share::rays;    ///< among ranks
   /// hits, irradiance and pairs, which the outcome lacks, if the discs are not in memory; null on other ranks
   std::shared_ptr<const sim::PartResults> results = {};
+  sim::MissedShare missed = {};  ///< of gather: the light that it misses; finding it is part of prepare_seconds
 };
 
 [[nodiscard]] inline std::uint64_t disc_count(const TimedRun& run) {
@@ -45,7 +47,7 @@ struct Together {
 };
 
 /// Runs the estimator; the rays of a stream by its technique, which finds pairs. Ranks share the rays of a stream, or the discs; on all but rank 0 the
-/// outcome is that of run_on_ranks there. Other searches do not know of ranks.
+/// outcome is that of run_on_ranks there. Gather also finds how much light it misses. Other searches do not know of ranks.
 [[nodiscard]] TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request,
                                const sim::RunOptions& options, const sim::ReportPhase& progress,
                                const Together& together = {});
