@@ -158,7 +158,7 @@ Known two_rooms() {
 
 /// The closed diffuse box: all of its walls, edges too, or the middle of the floor alone.
 Known furnace(bool middle) {
-  Known known{middle ? "furnace, middle" : "furnace", sim::open_scene({.name = "@furnace", .samples = {}}), {}};
+  Known known{middle ? "middle of a wall" : "furnace", sim::open_scene({.name = "@furnace", .samples = {}}), {}};
   auto& samples = known.scene.samples;
   samples.clear();
   if (!middle) sim::add_by_area(samples, known.scene.mesh, 200, 5);
@@ -246,7 +246,7 @@ int main(int argc, char** argv) {
     std::ofstream csv(table);
     csv << "scene,estimator,radius,seed,bias,bias_low,bias_high,mean_bias,true_bias,true_mean_bias\n";
     for (const Row& row : rows)
-      csv << fmt::format("\"{}\",{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", row.scene, row.estimator,
+      csv << fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", row.scene, row.estimator,
                          row.radius, row.seed, row.stated.value, row.stated.low, row.stated.high, row.mean, row.truth(),
                          row.true_mean);
     fmt::print("{} of {} inside\n", std::ranges::count_if(rows, &Row::inside), rows.size());
