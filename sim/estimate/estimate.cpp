@@ -77,11 +77,15 @@ Outcome by_estimator(const Problem& problem, const EstimateRequest& request, con
 
 Outcome estimate(const Problem& problem, const EstimateRequest& request, const RunOptions& options) {
   const DefaultFloatingPoint mode;
+  Outcome outcome;
   try {
-    return by_estimator(problem, request, options);
+    outcome = by_estimator(problem, request, options);
   } catch (const Stopped&) {  // stopped before the search
-    return unsearched_outcome(problem, options);
+    outcome = unsearched_outcome(problem, options);
   }
+  if (request.estimator == Estimator::gather && outcome.progress.of == 0)
+    outcome.progress = {0, problem.discs().size(), "discs"};
+  return outcome;
 }
 
 }  // namespace detp::sim

@@ -26,7 +26,6 @@ Outcome unsearched_outcome(const Problem& problem, const RunOptions& options) {
   Outcome outcome;
   outcome.stopped = true;
   outcome.progress.of = problem.rays().size();
-  if (problem.rays().empty()) outcome.progress = {0, problem.discs().size(), "discs"};
   if (options.totals == nullptr) finish(Totals(problem.discs().size()), problem.discs(), outcome);
   return outcome;
 }
