@@ -51,7 +51,8 @@ RootInterval stated(sim::Scene& scene, sim::Estimator estimator, double radius) 
 
 TEST_SUITE("bias is judged by what shares nothing with the estimators") {
   TEST_CASE(
-      "a floor that a mesh has twice halves area-corrected estimates; the judge sees it, and discs have no such bias") {
+      "a floor that a mesh has twice halves area-corrected estimates; the judge sees it, and discs have no such bias" *
+      doctest::test_suite("long")) {
     sim::Scene twice = floor_under_lamp(true);
     const RootInterval halved = stated(twice, area_corrected, 0.1);
     CHECK(std::abs(halved.value - 0.5) < 0.03);
@@ -61,7 +62,8 @@ TEST_SUITE("bias is judged by what shares nothing with the estimators") {
     CHECK(stated(once, area_corrected, 0.1).high < 0.05);
   }
 
-  TEST_CASE("discs away from edges have no bias in uniform light; those at an edge lose light") {
+  TEST_CASE("discs away from edges have no bias in uniform light; those at an edge lose light" *
+            doctest::test_suite("long")) {
     sim::Scene furnace = sim::open_scene({.name = "@furnace", .samples = {}});
     furnace.samples.clear();
     for (int i = 0; i < 25; ++i) furnace.samples.push_back({{0.3 + 0.1 * (i % 5), 0, 0.3 + 0.1 * (i / 5)}, {0, 1, 0}});

@@ -44,7 +44,8 @@ TEST_SUITE("references") {
     CHECK(make_reference(cornell, options).irradiance == one.irradiance);
   }
 
-  TEST_CASE("photons on small patches agree with backward paths: the difference is within the errors") {
+  TEST_CASE("photons on small patches agree with backward paths: the difference is within the errors" *
+            doctest::test_suite("long")) {
     const sim::Scene cornell = opened("@cornell");
     const Reference backward = make_reference(cornell, {.samples = 200, .error = 0.02});
     sim::Scene mutable_scene = cornell;
