@@ -82,7 +82,8 @@ struct PilotedPlan {
 [[nodiscard]] PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, AccuracyPilotOptions options,
                                         double most_rays = 1e9);
 
-/// Seconds of a pilot, by its counts alone: the same on a busy machine. Meant for two processors of 2020.
+/// Seconds of a pilot, by its counts alone: the same on a busy machine. Rough: set by pilots of @cornell on two virtual cores of an AMD EPYC,
+/// Zen 3.
 [[nodiscard]] double predicted_seconds(const AccuracyPilot& pilot, std::size_t triangles);
 
 }  // namespace detp::validate

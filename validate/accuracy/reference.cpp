@@ -101,6 +101,8 @@ void ReferenceMaker::add_paths(std::uint64_t paths) {
 void ReferenceMaker::add_photons(std::size_t rays, int batches) {
   if (!misses_light_) return;
   const sim::Stopwatch watch;
+  if (missed_.empty())
+    missed_bound_ = sim::missed_share(scene_, caster_, options_.seed, sim::photons_of_share, options_.stop).upper_bound;
   if (rays > rays_of_batch_) missed_.clear();  // smaller batches would add their noise
   rays_of_batch_ = rays;
   for (int i = 0; i < batches; ++i) missed_.push_back(missed_by_photons(rays));
@@ -161,7 +163,9 @@ const Reference& ReferenceMaker::reference() {
   }
   const double square = reference_.mean_square();
   if (square > 0) {
-    reference_.missed_squared = {missed_square / square, std::sqrt(missed_variance) / square};
+    // light that no photon brought to the samples is bounded, not absent
+    const double error = std::max(std::sqrt(missed_variance) / square, squared(missed_bound_));
+    reference_.missed_squared = {missed_square / square, error};
     reference_.path_noise_squared = of_path / square;
   }
   if (mean > 0) reference_.missed_mean = missed / mean;

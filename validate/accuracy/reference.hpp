@@ -96,6 +96,7 @@ class ReferenceMaker {
   std::size_t rays_of_batch_ = 0;
   std::uint64_t batches_made_ = 0;
   std::unique_ptr<const sim::Index> surfaces_;
+  double missed_bound_ = 0;  ///< of missed_share: one-sided, of all light
   double path_seconds_ = 0;
   Reference reference_;
 };

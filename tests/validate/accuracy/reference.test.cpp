@@ -84,6 +84,19 @@ TEST_SUITE("long") {
   }
 }
 
+TEST_SUITE("the judge's light") {
+  TEST_CASE("missed light that no photon brings to the samples is bounded, not 0") {
+    // So few photons bring nothing to three samples.
+    sim::Scene caustic = opened("@caustic");
+    ReferenceMaker maker(caustic, judged_samples(caustic, 3), {});
+    maker.add_paths(16);
+    maker.add_photons(100, 2);
+    const Estimate missed = maker.reference().missed_squared;
+    CHECK(missed.mean == 0);
+    CHECK(missed.standard_error > 0.01);
+  }
+}
+
 TEST_SUITE("bad input") {
   TEST_CASE("scenes without triangles and options out of range are refused") {
     CHECK_THROWS_WITH_AS((void)make_reference(opened("@uniform")), doctest::Contains("triangles"),

@@ -113,6 +113,7 @@ struct Question {
   std::vector<double> radii;     ///< to try; none: by the mesh
   std::vector<double> relative;  ///< of the samples, over those
   std::vector<double> weights;   ///< of the samples
+  std::string notice = {};       ///< if a run of the file would take other radii than the answer's
 };
 
 /// Makes the discs of a file the scene's samples.
@@ -136,6 +137,9 @@ Question take_question(sim::Scene& scene, const AccuracyOptions& options, const 
       scene.samples.push_back({disc.centre, disc.normal});
       radii.push_back(disc.radius);
     }
+    if (std::ranges::any_of(radii, [&](double one) { return one != usual; }))
+      question.notice =
+          *options.discs + " has radii, which detp run takes: for the radius of the answer, leave out that column";
     const double middle = validate::median(radii);
     question.radii = around(middle);
     question.weights = validate::weights_by_area(discs);
@@ -334,6 +338,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
     answer.warnings.push_back(text);
   };
   for (const std::string& notice : scene.notices) say(notice, "");
+  if (!question.notice.empty()) say(question.notice, "warning: ");
   std::optional<sim::Progress> stopped = find_answer(answer, scene, target, pilot, most_rays, saved);
   for (const std::string& warning : sim::light_warnings(answer.pilot.light, scene.lights)) say(warning, "warning: ");
   pilot.seed += seeds_apart;

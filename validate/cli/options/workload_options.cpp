@@ -125,7 +125,8 @@ void add_face_names(CLI::App& command, sim::FaceNames& names) {
       .add_option("--material", names.materials,
                   "errors are those of the samples on faces with these materials, a list; default: of all samples")
       ->delimiter(',');
-  command.add_option("--group", names.groups, "the same of faces in these groups or objects of an OBJ file")
+  command
+      .add_option("--group", names.groups, "the same of faces in these groups or objects of an OBJ file; default: all")
       ->delimiter(',');
 }
 

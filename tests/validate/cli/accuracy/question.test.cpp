@@ -37,6 +37,7 @@ TEST_SUITE("the samples in question") {
     const Json json =
         result_of("accuracy @furnace --estimators disc --effort quick --discs " + discs_in_the_middle(folder));
     CHECK(json["reference"]["kind"] == "backward paths");
+    CHECK(json["warnings"].dump().find("has radii") != std::string::npos);
     CHECK(json["reference"]["samples"] == 25);
     CHECK(json["answer"]["bias_interval"][0] == 0);
     CHECK(json["answer"]["bias_interval"][1].get<double>() <= 0.02);
