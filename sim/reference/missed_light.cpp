@@ -8,6 +8,7 @@
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stopped.hpp"
+#include "detp/sim/photons/photon_tracer.hpp"
 #include "detp/sim/photons/photon_walk.hpp"
 #include "detp/sim/search/irradiance.hpp"
 
@@ -35,29 +36,37 @@ LandedPower landed_power(const PhotonWalk& walk, std::uint64_t photon) {
   return {walk.power(photon) * landings, missed ? walk.power(photon) * (landings - 1) : 0};
 }
 
+constexpr std::uint64_t photons_of_block = 1024;
+
+/// The rays from number `first` on.
+void append_from(std::ptrdiff_t first, const Paths& from, Paths& to) {
+  const auto add = [first](const auto& source, auto& target) {
+    target.insert(target.end(), source.begin() + first, source.end());
+  };
+  add(from.rays, to.rays);
+  add(from.photons, to.photons);
+  add(from.landings, to.landings);
+  add(from.triangles, to.triangles);
+}
+
 }  // namespace
 
 Paths missed_light(const Scene& scene, std::shared_ptr<const RayCaster> caster, std::uint64_t seed,
-                   const Paths& traced) {
+                   std::uint64_t photons, const std::stop_token& stop) {
   const DefaultFloatingPoint mode;
-  Paths missed{.rays = {}, .photon_count = traced.photon_count};
+  Paths missed{.rays = {}, .photon_count = photons};
   if (!misses_light(scene)) return missed;
-  const PhotonWalk walk(scene, seed, std::move(caster));
-  const auto starts = [&](std::size_t i) { return i == 0 || traced.photons[i] != traced.photons[i - 1]; };
-  std::vector<char> of_first(traced.rays.size());  // of each photon's first ray: whether later ones carry missed light
-  sim::parallel_for(std::size_t{0}, of_first.size(), [&](std::size_t i) {
-    if (starts(i)) of_first[i] = walk.is_missed_backwards(traced.photons[i]) ? 1 : 0;
+  const PhotonWalk walk(scene, seed, caster);
+  const PhotonTracer tracer(scene, seed, std::move(caster));
+  std::vector<Paths> blocks((photons + photons_of_block - 1) / photons_of_block);
+  sim::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+    const std::uint64_t first = i * photons_of_block;
+    const std::uint64_t last = std::min(first + photons_of_block, photons);
+    for (std::uint64_t photon = first; photon < last; ++photon)
+      if (walk.is_missed_backwards(photon)) append_from(1, tracer.trace(photon, photon + 1, stop), blocks[i]);
   });
-  bool is_missed = false;
-  for (std::size_t i = 0; i < of_first.size(); ++i) {
-    const bool first = starts(i);
-    if (first) is_missed = of_first[i] != 0;
-    if (first || !is_missed) continue;
-    missed.rays.push_back(traced.rays[i]);
-    missed.photons.push_back(traced.photons[i]);
-    missed.landings.push_back(traced.landings[i]);
-    missed.triangles.push_back(traced.triangles[i]);
-  }
+  for (const Paths& block : blocks) append_from(0, block, missed);
+  for (Ray& ray : missed.rays) ray.power /= static_cast<double>(photons);
   return missed;
 }
 

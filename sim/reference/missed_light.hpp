@@ -13,10 +13,11 @@
 /// all else is found.
 namespace detp::sim {
 
-/// Those rays of `traced` that carry missed light, as they are, with the same number of photons. `traced`: by photon_paths in this scene,
-/// with this seed; the caster is of the scene's mesh. Runs on all threads of the caller's arena. Throws as PhotonWalk.
+/// The rays that carry missed light, of the first `photons` photons of photon_paths in this scene with this seed; the caster is of the
+/// scene's mesh. Powers are those of EmittedPhoton divided by `photons`; other photons are not followed. Runs on all threads of the caller's
+/// arena. Throws as PhotonTracer.
 [[nodiscard]] Paths missed_light(const Scene& scene, std::shared_ptr<const RayCaster> caster, std::uint64_t seed,
-                                 const Paths& traced);
+                                 std::uint64_t photons, const std::stop_token& stop = {});
 
 /// A usual number for missed_share: if they meet none, at most about 0.02 % is missed.
 inline constexpr std::uint64_t photons_of_share = std::uint64_t{1} << 14;

@@ -20,6 +20,9 @@ constexpr std::size_t samples_judged = 1000;  // of the runs; times are taken wi
 constexpr std::array radii_over_distance{0.25, 0.5, 1.0, 2.0};
 constexpr std::array nearest_of_run{5, 10, 20, 40};  // k in a run of the pilot
 constexpr int batches_of_missed_light = 8;
+constexpr double first_photons_of_a_batch = 1 << 14;
+constexpr double patch_over_edge =
+    0.25;  // of missed light: more than in references, or a pilot's photons would be too few
 
 Estimate scaled(const Estimate& one, double factor) { return {one.mean * factor, one.standard_error * factor}; }
 
@@ -248,8 +251,11 @@ PilotMaker::PilotMaker(sim::Scene& scene, AccuracyPilotOptions options)
   judged_ = options_.reference != nullptr ? options_.reference->judged
             : options_.weights.empty()    ? judged_samples(scene, samples_judged)
                                           : judged_samples(scene, options_.weights, samples_judged);
-  const ReferenceOptions judge{
-      .seed = options_.seed, .front_facing = options_.front_facing, .threads = options_.threads, .stop = options_.stop};
+  const ReferenceOptions judge{.seed = options_.seed,
+                               .patch_radius = patch_over_edge * sim::mean_edge_length(scene.mesh, options_.stop),
+                               .front_facing = options_.front_facing,
+                               .threads = options_.threads,
+                               .stop = options_.stop};
   judge_.emplace(scene, judged_, judge, maker_.caster());
 }
 
@@ -267,8 +273,7 @@ AccuracyPilot PilotMaker::make(double rays, std::uint64_t paths, const AccuracyP
   if (options_.progress) options_.progress({"pilot: backward paths", 0, 1});
   judge_->add_paths(paths);
   const double more = static_cast<double>(paths) / static_cast<double>(first_paths());
-  judge_->add_photons(static_cast<std::size_t>(more * usual_pilot_rays / batches_of_missed_light),
-                      batches_of_missed_light);
+  judge_->add_photons(static_cast<std::uint64_t>(more * first_photons_of_a_batch), batches_of_missed_light);
   const Reference& by_paths = judge_->reference();
   AccuracyPilot pilot = std::move(all).make(options_.reference != nullptr ? *options_.reference : by_paths, by_paths);
   pilot.seconds = watch.seconds();

@@ -13,7 +13,6 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/estimate/surface.hpp"
-#include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/photon_walk.hpp"
 #include "detp/sim/reference/missed_light.hpp"
 #include "replicates.hpp"
@@ -23,7 +22,7 @@ namespace {
 
 constexpr std::uint64_t paths_at_first = 64;
 constexpr std::uint64_t most_paths = 1 << 22;
-constexpr std::size_t rays_of_a_batch = 1'000'000;
+constexpr std::uint64_t photons_of_a_batch = 1 << 20;
 constexpr int fewest_batches = 4;
 constexpr int most_batches = 1024;
 
@@ -98,23 +97,24 @@ void ReferenceMaker::add_paths(std::uint64_t paths) {
   reference_.seconds += watch.seconds();
 }
 
-void ReferenceMaker::add_photons(std::size_t rays, int batches) {
+void ReferenceMaker::add_photons(std::uint64_t photons, int batches) {
   if (!misses_light_) return;
   const sim::Stopwatch watch;
   if (missed_.empty())
     missed_bound_ = sim::missed_share(scene_, caster_, options_.seed, sim::photons_of_share, options_.stop).upper_bound;
-  if (rays > rays_of_batch_) missed_.clear();  // smaller batches would add their noise
-  rays_of_batch_ = rays;
-  for (int i = 0; i < batches; ++i) missed_.push_back(missed_by_photons(rays));
+  if (photons > photons_of_batch_) missed_.clear();  // smaller batches would add their noise
+  photons_of_batch_ = photons;
+  for (int i = 0; i < batches; ++i) missed_.push_back(missed_by_photons(photons));
   reference_.seconds += watch.seconds();
 }
 
-std::vector<double> ReferenceMaker::missed_by_photons(std::size_t rays) {
+std::vector<double> ReferenceMaker::missed_by_photons(std::uint64_t photons) {
   // apart from the seeds of the runs that are judged
   const std::uint64_t seed = (options_.seed << 20) + (std::uint64_t{1} << 63) + batches_made_++;
-  const sim::Paths traced = sim::photon_paths(scene_, rays, seed, caster_, options_.stop);
-  const sim::Paths missed = sim::missed_light(scene_, caster_, seed, traced);
-  reference_.photons += traced.photon_count;
+  sim::Paths missed;
+  sim::on_threads(sim::thread_count(options_.threads),
+                  [&] { missed = sim::missed_light(scene_, caster_, seed, photons, options_.stop); });
+  reference_.photons += photons;
   const double radius =
       options_.patch_radius > 0 ? options_.patch_radius : sim::mean_edge_length(scene_.mesh, options_.stop) / 8;
   std::vector<double> found = within(missed, radius);
@@ -187,7 +187,7 @@ Reference make_reference(const sim::Scene& scene, const ReferenceOptions& option
     return known;
   }
   ReferenceMaker maker(scene, std::move(judged), options);
-  maker.add_photons(rays_of_a_batch, fewest_batches);
+  maker.add_photons(photons_of_a_batch, fewest_batches);
   std::uint64_t paths = paths_at_first;
   for (int batches = fewest_batches;; ++batches) {
     maker.add_paths(paths);
@@ -205,7 +205,7 @@ Reference make_reference(const sim::Scene& scene, const ReferenceOptions& option
     }
     if (!maker.misses_light() || reference.paths < static_cast<std::uint64_t>(batches) * paths_at_first)
       paths += paths / 2;
-    maker.add_photons(rays_of_a_batch, 1);
+    maker.add_photons(photons_of_a_batch, 1);
   }
 }
 

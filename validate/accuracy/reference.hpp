@@ -73,9 +73,9 @@ class ReferenceMaker {
 
   /// Adds paths until each sample has so many. Throws sim::Stopped if a stop request came before each sample has some.
   void add_paths(std::uint64_t paths);
-  /// If backward paths miss light: adds batches of about so many pieces of photon paths, at least four of them before the reference is
-  /// complete; in place of those before if these are larger. Throws sim::Stopped.
-  void add_photons(std::size_t rays, int batches);
+  /// If backward paths miss light: adds batches of so many photons, at least four of them before the reference is complete; in place of
+  /// those before if these are larger. Throws sim::Stopped.
+  void add_photons(std::uint64_t photons, int batches);
   [[nodiscard]] bool misses_light() const { return misses_light_; }
 
   /// With all that was added.
@@ -83,7 +83,7 @@ class ReferenceMaker {
 
  private:
   /// The missed light of one batch at the samples.
-  [[nodiscard]] std::vector<double> missed_by_photons(std::size_t rays);
+  [[nodiscard]] std::vector<double> missed_by_photons(std::uint64_t photons);
   [[nodiscard]] std::vector<double> within(const sim::Paths& missed, double radius);
 
   const sim::Scene& scene_;
@@ -93,7 +93,7 @@ class ReferenceMaker {
   bool misses_light_;
   std::vector<sim::PathSums> sums_;
   std::vector<std::vector<double>> missed_;  ///< by each batch
-  std::size_t rays_of_batch_ = 0;
+  std::uint64_t photons_of_batch_ = 0;
   std::uint64_t batches_made_ = 0;
   std::unique_ptr<const sim::Index> surfaces_;
   double missed_bound_ = 0;  ///< of missed_share: one-sided, of all light
