@@ -5,30 +5,81 @@
 #include <stdexcept>
 
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/geometry/random.hpp"
 #include "detp/sim/search/index.hpp"
+#include "detp/sim/search/irradiance.hpp"
 
 namespace detp::sim {
 namespace {
 
-/// Rays, and photons counted from 0.
+/// The two parts that find each other's radii, and the other photons.
+enum class Part { first, second, rest };
+
+Part part_of(std::uint64_t photon) {
+  constexpr std::uint64_t seed = 1;
+  const double chance = uniform4(seed, Stream::pilot, photon)[0];
+  return chance < pilot_share ? Part::first : chance < 2 * pilot_share ? Part::second : Part::rest;
+}
+
+/// Some photons' rays with the photons' numbers; without what a search for pairs does not need.
 struct SomePhotons {
-  PathRays paths;
+  std::vector<Ray> rays;
   std::vector<std::uint64_t> photons;
 
-  SomePhotons(const Problem& problem, std::size_t first, std::size_t end, std::uint64_t first_photon,
-              std::uint64_t count)
-      : paths(problem.paths()) {
-    const std::size_t rays = end - first;
-    paths.rays = paths.rays.subspan(first, rays);
-    paths.landings = {};  // a search for pairs needs neither
-    paths.triangles = {};
-    if (!problem.numbered()) return;
-    photons.reserve(rays);
-    for (std::size_t ray = first; ray < end; ++ray) photons.push_back(problem.photon(ray) - first_photon);
-    paths.photons = photons;
-    paths.photon_count = count;
+  template <class IsWanted>
+  SomePhotons(const Problem& problem, const IsWanted& is_wanted) {
+    for (std::size_t ray = 0; ray < problem.rays().size(); ++ray) {
+      const std::uint64_t photon = problem.photon(ray);
+      if (!is_wanted(part_of(photon))) continue;
+      rays.push_back(problem.rays()[ray]);
+      photons.push_back(photon);
+    }
   }
 };
+
+Outcome search(const Problem& problem, const SomePhotons& some, std::span<const Disc> discs, const Candidate& candidate,
+               const RunOptions& options) {
+  PathRays paths(some.rays);
+  paths.photons = some.photons;
+  paths.photon_count = problem.photons_to();
+  return run(make_problem(paths, discs, problem.front_facing(), options.threads, options.stop), candidate, options);
+}
+
+/// Standard error and bound of a sum of independent parts, by the rules of irradiance.hpp. A part with one photon has the square of its
+/// irradiance for a variance.
+DiscResult sum_of(const DiscResult& a, const DiscResult& b) {
+  DiscResult sum{a.hits + b.hits, a.irradiance + b.irradiance};
+  const auto error = [](const DiscResult& one) {
+    return one.standard_error < unbounded ? one.standard_error : one.irradiance;
+  };
+  const bool known = a.standard_error < unbounded || b.standard_error < unbounded || (a.hits > 0 && b.hits > 0);
+  if (known) sum.standard_error = std::hypot(error(a), error(b));
+  if (is_weak(a))
+    sum.upper_bound = a.upper_bound + b.upper_bound;
+  else
+    sum.upper_bound = sum.irradiance + (a.upper_bound - a.irradiance) / a.standard_error * sum.standard_error;
+  return sum;
+}
+
+/// `rest` has most of the light.
+void add(const Outcome& part, Outcome& rest) {
+  add_block(part, rest);
+  for (std::size_t i = 0; i < rest.hits.size(); ++i) {
+    const auto result = [&](const Outcome& one) {
+      DiscResult found{one.hits[i], one.irradiance[i]};
+      if (one.standard_error.empty()) return found;
+      found.standard_error = one.standard_error[i];
+      found.upper_bound = one.upper_bound[i];
+      return found;
+    };
+    const DiscResult sum = sum_of(result(rest), result(part));
+    rest.hits[i] = sum.hits;
+    rest.irradiance[i] = sum.irradiance;
+    if (rest.standard_error.empty()) continue;
+    rest.standard_error[i] = sum.standard_error;
+    rest.upper_bound[i] = sum.upper_bound;
+  }
+}
 
 }  // namespace
 
@@ -50,33 +101,33 @@ std::vector<Disc> discs_of_pilot(std::span<const Disc> discs, std::span<const st
 
 Outcome estimate_with_variable_radius(const Problem& problem, const Candidate& candidate, const RunOptions& options) {
   const Stopwatch watch;
-  const std::size_t rays = problem.rays().size();
-  const std::uint64_t all = problem.photons_to();
-  const auto pilot = static_cast<std::uint64_t>(std::ceil(pilot_share * static_cast<double>(all)));
-  const std::size_t first =
-      problem.numbered()
-          ? static_cast<std::size_t>(std::ranges::lower_bound(problem.photons(), pilot) - problem.photons().begin())
-          : std::min<std::size_t>(pilot, rays);
-  if (first == 0 || first == rays)
+  const SomePhotons first(problem, [](Part part) { return part == Part::first; });
+  const SomePhotons second(problem, [](Part part) { return part == Part::second; });
+  const SomePhotons others(problem, [](Part part) { return part != Part::first; });
+  if (first.rays.empty() || second.rays.empty())
     throw std::invalid_argument(
-        "variable-radius needs more photons: a tenth of them find the radii, the others the light");
+        "variable-radius needs more photons: some of them find the radii, the others the light");
   RunOptions quick = options;
   quick.count = quick.standard_error = false;
   quick.progress = {};
-  const SomePhotons some(problem, 0, first, 0, pilot);
-  const Outcome found =
-      run(make_problem(some.paths, problem.discs(), problem.front_facing(), options.threads, options.stop), candidate,
-          quick);
-  if (found.stopped) return unsearched_outcome(problem, options);
-  const std::vector<Disc> discs = discs_of_pilot(problem.discs(), found.hits);
-  const SomePhotons others(problem, first, rays, pilot, all - pilot);
-  const Problem rest = make_problem(others.paths, discs, problem.front_facing(), options.threads, options.stop);
+  const auto radii_by = [&](const SomePhotons& some) {
+    const Outcome found = search(problem, some, problem.discs(), candidate, quick);
+    return found.stopped ? std::vector<Disc>() : discs_of_pilot(problem.discs(), found.hits);
+  };
+  const std::vector<Disc> by_first = radii_by(first);
+  const std::vector<Disc> by_second = radii_by(second);
+  if (by_first.empty() || by_second.empty()) return unsearched_outcome(problem, options);
+  RunOptions silent = options;
+  silent.progress = {};
+  const Outcome part = search(problem, first, by_second, candidate, silent);
   const double prepare = watch.seconds();
-  Outcome outcome = run(rest, candidate, options);
-  outcome.seconds.prepare += prepare;
-  const double scale = static_cast<double>(all) / static_cast<double>(all - pilot);
-  for (std::vector<double>* results : {&outcome.irradiance, &outcome.standard_error, &outcome.upper_bound})
-    for (double& one : *results) one *= scale;
+  if (part.stopped) return unsearched_outcome(problem, options);
+  Outcome outcome = search(problem, others, by_first, candidate, options);
+  if (outcome.stopped) return outcome;
+  const std::size_t rays = problem.rays().size();
+  outcome.seconds.prepare += prepare - part.seconds.build - part.seconds.search;
+  add(part, outcome);
+  outcome.progress = {rays, rays};
   return outcome;
 }
 

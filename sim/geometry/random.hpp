@@ -20,7 +20,8 @@ enum class Stream : std::uint64_t {
   pilot,
   evidence,
   structure,
-  reference
+  reference,
+  order
 };
 
 /// Four independent uniform numbers in [0, 1) with 53 bits.

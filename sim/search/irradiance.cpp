@@ -30,15 +30,13 @@ PowerError error_of_power(double power, const ErrorSums& sums, double heaviest, 
   const double w = unit * heaviest;
   const double largest = unit * sums.largest;
   const bool in_range = squares > least && squares < unbounded;  // not so if nothing hits
-  if (!in_range || squares * (1 + 1e-9) < fewest_photons * largest * largest) {
-    const double as_heavy = in_range ? squares / (w * w) : sums.photons;
-    const double most = fewest_photons - 1;
-    const auto k = static_cast<std::size_t>(std::min(most, std::ceil(as_heavy - 1e-9)));
-    return {unbounded, power + heaviest * more_photons[k]};
-  }
   const double variance = std::max(0.0, squares - (unit * power) * (unit * power) / photons) * photons / (photons - 1);
   const double error = std::sqrt(variance) / unit;
-  return {error, power + one_sided * error};
+  if (in_range && squares * (1 + 1e-9) >= fewest_photons * largest * largest) return {error, power + one_sided * error};
+  const double as_heavy = in_range ? squares / (w * w) : sums.photons;
+  const double most = fewest_photons - 1;
+  const auto k = static_cast<std::size_t>(std::min(most, std::ceil(as_heavy - 1e-9)));
+  return {in_range && sums.photons > 1 ? error : unbounded, power + heaviest * more_photons[k]};
 }
 
 DiscResult result_of(const FoundSums& found, const ErrorSums* errors, double heaviest, double photons) {

@@ -7,7 +7,7 @@
 
 namespace detp::sim {
 
-/// A standard error is stated only if no photon brings more than one part in so many of Σ x² to the disc (finish).
+/// A standard error is weak if one photon brings more than one part in so many of Σ x² to the disc (finish).
 inline constexpr double fewest_photons = 10;
 
 /// Bytes for each disc: its photon sums, its standard error and its bound.
@@ -24,11 +24,12 @@ constexpr double error_bytes = sizeof(PhotonSums) + 2 * sizeof(double);
 ///          d  radius of the disc
 ///
 /// SE² estimates the variance of a sum over N independent photons; a photon's rays are not independent of one another.
-/// SE is infinite, for not known, if one photon brings more than a tenth of Σ x²: so always if fewer than 10 photons hit the
-/// disc, and exactly then if all bring the same power. Where a few photons bring most of the power, as on a caustic, SE
-/// follows from them alone, and intervals of ± 1.96 SE would hold less often than they should.
+/// SE is infinite, for not known, if fewer than two photons hit the disc. It is weak if one photon brings more than a tenth of Σ x²: so
+/// always if fewer than 10 photons hit the disc, and exactly then if all bring the same power. Where a few photons bring most of the power, as
+/// on a caustic, intervals of ± 1.96 SE hold less often than they should.
 ///
-/// The bound is one-sided, of 95 %. If SE is known, it is E + 1.645 SE. Otherwise it is (P + w (u_k - k)) / (π d²) with
+/// The bound is one-sided, of 95 %. It is E + 1.645 SE; where SE is weak or not known, (P + w (u_k - k)) / (π d²), which is at least
+/// E + 2.1 SE, with
 ///
 ///   where  w    largest power that one photon has brought to one disc, any of them, but at least the largest power of a ray
 ///          k    Σ x² / w², rounded up, at most 9: the number of photons if all were as heavy
@@ -66,6 +67,11 @@ struct DiscResult {
   double standard_error = unbounded;  ///< infinite: not known
   double upper_bound = unbounded;
 };
+
+/// Whether the standard error, if it is known at all, is weak (finish): the bound says so.
+[[nodiscard]] inline bool is_weak(const DiscResult& result) {
+  return !(result.upper_bound <= result.irradiance + 1.9 * result.standard_error) || result.standard_error == unbounded;
+}
 
 /// By the rules of `finish`. `errors` may be null: then there is no standard error. `heaviest` is w, `photons` N.
 [[nodiscard]] DiscResult result_of(const FoundSums& found, const ErrorSums* errors, double heaviest, double photons);

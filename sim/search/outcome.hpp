@@ -87,8 +87,8 @@ struct Outcome {
   /// Power of the rays that cross the disc, divided by the disc's area π d². Powers are added in the order of Totals, so
   /// all exact techniques give the same bits.
   std::vector<double> irradiance;
-  /// Standard error of the irradiance, for independent photons (irradiance.hpp); infinite, for not known, if fewer
-  /// than 10 photons hit the disc or one brings too much of it. Empty if not requested, or if the run was stopped.
+  /// Standard error of the irradiance, for independent photons (irradiance.hpp); infinite, for not known, if fewer than two photons hit the
+  /// disc; weak (is_weak) if a few bring most of it. Empty if not requested, or if the run was stopped.
   std::vector<double> standard_error;
   std::vector<double> upper_bound;  ///< one-sided bound of the irradiance, 95 %; empty like standard_error
   std::uint64_t total_hits = 0;

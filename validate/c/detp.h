@@ -178,7 +178,8 @@ typedef struct detp_found {
   size_t size;
   uint64_t *hits;         /* rays that cross the disc */
   double *irradiance;     /* their power over the disc's area */
-  double *standard_error; /* of the irradiance; infinite where only a bound is known */
+  double *standard_error; /* of the irradiance; infinite if fewer than two photons hit; weak (few photons bring most of it) where
+                             the bound is more than 1.9 of it above the irradiance */
   double *upper_bound;    /* one-sided, 95 %, of the irradiance */
   /* set by the search: */
   uint64_t total_hits;

@@ -88,19 +88,48 @@ std::uint64_t StoredBatches::photon(std::size_t ray) const {
   return all_.photons.empty() ? ray : all_.photons[ray];
 }
 
+StoredBatches::StoredBatches(const sim::PathRays& rays, std::uint64_t photons, std::optional<std::uint64_t> seed)
+    : all_(rays), photons_(photons) {
+  if (seed) order_.emplace(photons, *seed);
+}
+
 std::optional<RayBatch> StoredBatches::next(std::uint64_t rays) {
+  if (at_end()) return std::nullopt;
+  RayBatch batch = order_ ? drawn(rays) : in_order(rays);
+  batch.scale = static_cast<double>(photons_) / batch.photons;
+  given_ += batch.rays.rays.size();
+  drawn_ += static_cast<std::uint64_t>(batch.photons);
+  return batch;
+}
+
+RayBatch StoredBatches::in_order(std::uint64_t rays) {
   const std::size_t size = all_.rays.size();
-  if (given_ == size) return std::nullopt;
   const std::size_t first = given_;
-  given_ += static_cast<std::size_t>(std::min<std::uint64_t>(rays, size - given_));
-  while (given_ < size && photon(given_) == photon(given_ - 1)) ++given_;
-  const std::size_t count = given_ - first;
-  const auto photons = static_cast<double>(photon(given_) - (first == 0 ? 0 : photon(first)));
-  return RayBatch{{all_.rays.subspan(first, count), part(all_.photons, first, count), part(all_.landings, first, count),
-                   photon(given_), part(all_.triangles, first, count)},
-                  photons,
-                  static_cast<double>(photons_) / photons,
-                  {}};
+  std::size_t end = first + static_cast<std::size_t>(std::min<std::uint64_t>(rays, size - first));
+  while (end < size && photon(end) == photon(end - 1)) ++end;
+  const std::size_t count = end - first;
+  return {{all_.rays.subspan(first, count), part(all_.photons, first, count), part(all_.landings, first, count),
+           photon(end), part(all_.triangles, first, count)},
+          static_cast<double>(photon(end) - (first == 0 ? 0 : photon(first)))};
+}
+
+RayBatch StoredBatches::drawn(std::uint64_t rays) {
+  batch_ = {};
+  std::uint64_t& photons = batch_.photon_count;
+  while (batch_.rays.size() < rays && drawn_ + photons < photons_) {
+    const std::uint64_t drawn = (*order_)[drawn_ + photons];
+    std::size_t ray = drawn;
+    if (!all_.photons.empty())
+      ray = static_cast<std::size_t>(std::ranges::lower_bound(all_.photons, drawn) - all_.photons.begin());
+    for (; ray < all_.rays.size() && photon(ray) == drawn; ++ray) {
+      batch_.rays.push_back(all_.rays[ray]);
+      if (!all_.photons.empty()) batch_.photons.push_back(photons);
+      if (!all_.landings.empty()) batch_.landings.push_back(all_.landings[ray]);
+      if (!all_.triangles.empty()) batch_.triangles.push_back(all_.triangles[ray]);
+    }
+    ++photons;
+  }
+  return {batch_, static_cast<double>(photons)};
 }
 
 }  // namespace detp::validate

@@ -11,6 +11,7 @@
 #include "detp/sim/photons/light_ledger.hpp"
 #include "detp/sim/search/outcome.hpp"
 #include "detp/validate/choice/plan.hpp"
+#include "random_order.hpp"
 #include "run_until.hpp"
 
 /// Searches batches of rays until the irradiance is known well enough.
@@ -67,26 +68,34 @@ using SaveExecuted = std::function<void(const std::function<UntilState()>& state
 /// The discs' areas over their sum.
 [[nodiscard]] std::vector<double> weights_by_area(std::span<const sim::Disc> discs);
 
-/// Gives rays in memory batch by batch. The rays are not copied.
+/// Gives rays in memory batch by batch: in their order, not copied, or the photons in random order.
 class StoredBatches {
  public:
-  /// `photons`: of all rays, with those that gave none.
-  StoredBatches(const sim::PathRays& rays, std::uint64_t photons) : all_(rays), photons_(photons) {}
+  /// `photons`: of all rays, with those that gave none. `seed`: of the random order; none: that of the rays.
+  StoredBatches(const sim::PathRays& rays, std::uint64_t photons, std::optional<std::uint64_t> seed = {});
 
-  /// Nothing at the end.
+  /// The batch, if it is in random order, has its own numbers of photons, and stays until the next one. Nothing at the end.
   [[nodiscard]] std::optional<RayBatch> next(std::uint64_t rays);
 
-  [[nodiscard]] bool at_end() const { return given_ == all_.rays.size(); }
-  /// Goes on after the first `rays`, the last of which ends a photon.
-  void skip(std::uint64_t rays) { given_ = static_cast<std::size_t>(std::min<std::uint64_t>(rays, all_.rays.size())); }
+  [[nodiscard]] bool at_end() const { return drawn_ == photons_ || given_ == all_.rays.size(); }
+  /// Goes on after the batches that had so many photons and rays.
+  void skip(std::uint64_t photons, std::uint64_t rays) {
+    drawn_ = photons;
+    given_ = rays;
+  }
 
  private:
   /// Number of the ray's photon; at the end, the number of all photons.
   [[nodiscard]] std::uint64_t photon(std::size_t ray) const;
+  [[nodiscard]] RayBatch in_order(std::uint64_t rays);
+  [[nodiscard]] RayBatch drawn(std::uint64_t rays);
 
   sim::PathRays all_;
   std::uint64_t photons_;
-  std::size_t given_ = 0;
+  std::optional<RandomOrder> order_;
+  sim::Paths batch_;
+  std::uint64_t drawn_ = 0;  ///< photons, of all that were given
+  std::uint64_t given_ = 0;  ///< rays
 };
 
 }  // namespace detp::validate

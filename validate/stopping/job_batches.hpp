@@ -19,19 +19,21 @@ namespace detp::validate {
   return !job.rays_from_file && job.field != sim::Field::photons;
 }
 
-/// Gives the rays of a job, then further ones of the same kind (Job::more_rays); of a file only those. Irradiances are those that all
+/// Gives the rays of a job, then further ones of the same kind (Job::more_rays); of a file only those, in random order. Irradiances are those that all
 /// photons bring together; of lines, which have power 1 each, those of one line.
 class JobBatches {
  public:
   /// The job must outlive this.
   explicit JobBatches(const Job& job, std::stop_token stop = {})
-      : job_(job), stop_(std::move(stop)), own_(job.paths(), job.independent_photons()) {}
+      : job_(job),
+        stop_(std::move(stop)),
+        own_(job.paths(), job.independent_photons(), job.rays_from_file ? std::optional(job.seed) : std::nullopt) {}
 
-  /// Goes on after so many batches of the same job, which gave so many rays.
-  void skip(std::uint64_t batches, std::uint64_t rays) {
+  /// Goes on after so many batches of the same job, which gave so many photons and rays.
+  void skip(std::uint64_t batches, double photons, std::uint64_t rays) {
     batches_ = batches;
     made_ = rays;
-    own_.skip(rays);
+    own_.skip(static_cast<std::uint64_t>(photons), rays);
   }
 
   /// Throws sim::Stopped on a stop request.

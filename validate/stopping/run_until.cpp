@@ -18,6 +18,8 @@ constexpr double most_growth = 7;
 constexpr double least_growth = 0.1;
 constexpr double safety = 1.05;        // of the rays of the next stage, so that one more look is rarely needed
 constexpr double share_of_bias = 0.9;  // of the square error: a larger bias leaves too little for the noise
+constexpr double share_of_looks =
+    0.1;  // of the error that tests may make: of those after stages that were not planned to reach the target
 
 double squared(double x) { return x * x; }
 
@@ -41,14 +43,14 @@ class UntilRun {
         const bool ended = !finish_stage();
         result_.noise = batches_.noise(target_.confidence);
         if (bias_ >= share_of_bias * squared(target_.error)) return finished(StopReason::bias);
-        if (stage_.is_test && passes_test()) return finished(StopReason::target);
-        if (stage_.is_last || ended) return finished(StopReason::rays);
+        const bool last = stage_.is_last || ended;
+        if (passes_test(last)) return finished(StopReason::target);
+        if (last) return finished(StopReason::rays);
         begin(next_stage());
       }
     } catch (const sim::Stopped&) {
       if (options_.save) options_.save([this] { return state(); });
-      result_.noise = batches_.noise(target_.confidence);
-      return finished(StopReason::time);
+      return finished(passes_test(true) ? StopReason::target : StopReason::time);
     }
   }
 
@@ -71,20 +73,32 @@ class UntilRun {
     batches_.set_state(state.batches);
     result_.rays = state.rays;
     result_.tests = state.tests;
+    result_.looks = state.looks;
     result_.noise = batches_.noise(target_.confidence);
     stage_ = {state.stage_rays, state.stage_is_test, state.stage_is_last, state.stage_batches};
   }
 
   [[nodiscard]] UntilState state() const {
-    return {batches_.state(), result_.rays, result_.tests, stage_.rays, stage_.is_test, stage_.is_last, stage_.batches};
+    return {batches_.state(), result_.rays,   result_.tests,  result_.looks,
+            stage_.rays,      stage_.is_test, stage_.is_last, stage_.batches};
   }
 
-  [[nodiscard]] double confidence_of_test(int test) const { return 1 - error_of_test(target_.confidence, test); }
+  /// The error of the next test.
+  [[nodiscard]] double error_allowed(bool planned) const {
+    if (planned) return (1 - share_of_looks) * error_of_test(target_.confidence, result_.tests + 1);
+    return share_of_looks * (1 - target_.confidence) * std::exp2(-result_.looks - 1);
+  }
+  /// What the tests so far have left of 1 - confidence: Σ error_of_test is (1 - confidence)(1 - 3^-tests).
+  [[nodiscard]] double error_left() const {
+    return (1 - target_.confidence) *
+           ((1 - share_of_looks) * std::pow(3.0, -result_.tests) + share_of_looks * std::exp2(-result_.looks));
+  }
 
   [[nodiscard]] double noise_allowed() const { return std::sqrt(std::max(0.0, squared(target_.error) - bias_)); }
 
-  bool passes_test() {
-    result_.noise = batches_.noise(confidence_of_test(++result_.tests));
+  bool passes_test(bool last) {
+    result_.noise = batches_.noise(1 - (last ? error_left() : error_allowed(stage_.is_test)));
+    ++(stage_.is_test ? result_.tests : result_.looks);
     return result_.noise.high <= noise_allowed();
   }
 
@@ -115,8 +129,7 @@ class UntilRun {
 
   [[nodiscard]] Stage next_stage() const {
     const auto rays = static_cast<double>(result_.rays);
-    const double needed =
-        batches_.photons_for(noise_allowed(), confidence_of_test(result_.tests + 1)) / batches_.photons() * rays;
+    const double needed = batches_.photons_for(noise_allowed(), 1 - error_allowed(true)) / batches_.photons() * rays;
     const double more = std::max(safety * needed - rays, least_growth * rays);
     return {std::min(more, most_growth * rays), more <= most_growth * rays};
   }

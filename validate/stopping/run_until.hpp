@@ -50,6 +50,7 @@ struct UntilState {
   PairedBatches::State batches;
   std::uint64_t rays = 0;
   int tests = 0;
+  int looks = 0;
   double stage_rays = 0;            ///< of the stage under way
   bool stage_is_test = false;       ///< it is planned to reach the target
   bool stage_is_last = false;       ///< there may be no more rays after it
@@ -74,10 +75,11 @@ struct UntilOptions {
 
 struct UntilResult {
   std::vector<double> irradiance;  ///< mean of the batches by their photons
-  NoiseInterval noise;             ///< at the target's confidence, each end alone
+  NoiseInterval noise;             ///< of the last test: at least at the target's confidence, each end alone
   double photons = 0;
   std::uint64_t rays = 0;
-  int tests = 0;
+  int tests = 0;  ///< after stages that were planned to reach the target
+  int looks = 0;  ///< after other stages
   StopReason reason = StopReason::target;
   /// If no photon has met any disc: with the target's confidence the share of photons that meet one is smaller.
   std::optional<double> share_bound = {};
@@ -87,9 +89,10 @@ struct UntilResult {
 [[nodiscard]] NoiseInterval with_bias(const NoiseInterval& noise, const Estimate& bias_squared);
 
 /// Adds batches in stages, each of 32 batches or, if they would be too large, more. Each stage has as many rays as will reach the target
-/// by what the stages before know, but at most seven times and at least a tenth of the rays so far. The run may end only after a stage
-/// that was planned to reach the target: never after the first. Test t of them allows the error α_t = (1 - confidence) 2/3ᵗ, so that all
-/// tests together allow 1 - confidence. The result's interval is that of the last test.
+/// by what the stages before know, but at most seven times and at least a tenth of the rays so far. After each stage the run
+/// may end. Test t after a stage that was planned to reach the target may err with 0.9 (1 - confidence) 2/3ᵗ, look l after another one with
+/// 0.1 (1 - confidence)/2ˡ, and the last one, at the end of the rays or on a stop request, with what is left: all together with 1 - confidence.
+/// The result's interval is that of the last test.
 ///
 /// Asymptotic, as PairedBatches. If no photon met a disc among n: the bound -ln(1 - confidence)/n of their share.
 /// Throws as check(ErrorTarget), std::invalid_argument unless most_rays > 0 and finite, for a batch whose numbers are not, and if the state is of other discs, and what `next` throws but sim::Stopped: then the result has what is known so far.

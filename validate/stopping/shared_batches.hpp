@@ -16,7 +16,7 @@ class SharedBatches {
   SharedBatches(const Job& job, JobSearch& search, std::stop_token stop, sim::Ranks* ranks);
 
   /// As JobBatches.
-  void skip(std::uint64_t batches, std::uint64_t rays) { rays_.skip(batches, rays); }
+  void skip(std::uint64_t batches, double photons, std::uint64_t rays) { rays_.skip(batches, photons, rays); }
   /// On rank 0; as FindBatch.
   [[nodiscard]] std::optional<FoundBatch> next(std::uint64_t rays, std::uint64_t following);
   /// On rank 0. Throws sim::RankFailed if another rank has died: a stop request may have come from its launcher.

@@ -21,7 +21,7 @@ namespace detp::validate {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairedBatches::State, unit, sums, pending, pending_photons, photons, pairs, earlier,
                                    products_of_squares, squares_of_products)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UntilState, batches, rays, tests, stage_rays, stage_is_test, stage_is_last,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UntilState, batches, rays, tests, looks, stage_rays, stage_is_test, stage_is_last,
                                    stage_batches)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ExecutedUntil, outcome, make_seconds, light)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Batch, irradiance, photons, rays)

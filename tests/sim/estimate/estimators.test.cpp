@@ -205,6 +205,26 @@ TEST_SUITE("estimators") {
     CHECK(discs_of_pilot(discs, std::vector<std::uint64_t>(5, 0))[0].radius == 2);
   }
 
+  TEST_CASE("variable radius: photons in order of their light are no worse, and none is left out") {
+    const Mesh mesh = floor_and_wall();
+    const std::vector<Disc> discs{{{0.25, 0.5, 0}, {0, 0, 1}, 0.1}, {{0.75, 0.5, 0}, {0, 0, 1}, 0.1}};
+    Paths paths{.rays = {}};
+    constexpr int photons = 20'000;
+    for (int i = 0; i < 2 * photons; ++i) {  // first all of the left half, then all of the right half
+      const double u = std::fmod(i * 0.6180339887498949, 1.0);
+      const double v = std::fmod(i * 0.7548776662466927, 1.0);
+      paths.rays.push_back({{0.5 * u + (i < photons ? 0 : 0.5), v, 1}, {0, 0, -1}, 1.1, 0.5 / photons});
+      paths.photons.push_back(static_cast<std::uint64_t>(i));
+    }
+    paths.photon_count = 2 * photons;
+    const Outcome found = with(Estimator::variable_radius, make_problem(paths, discs), mesh, {.standard_error = true});
+    for (std::size_t disc = 0; disc < 2; ++disc) {
+      CHECK(found.irradiance[disc] == doctest::Approx(1).epsilon(0.03));
+      CHECK(found.standard_error[disc] < 0.08);
+    }
+    CHECK(found.progress.done == 2 * photons);
+  }
+
   TEST_CASE("results are the same bytes on any number of threads") {
     const Mesh mesh = floor_and_wall();
     const auto discs = discs_on_floor(true);

@@ -35,12 +35,7 @@ std::vector<double> by_definition(const PathRays& paths, std::span<const Disc> d
     for (const double share : of_disc) hit += share > 0 ? 1 : 0;
     double squares = 0;
     for (const double share : of_disc) squares += std::pow(share - mean, 2);
-    double all = 0;
-    double largest = 0;
-    for (const double share : of_disc) all += share * share;
-    for (const double share : of_disc) largest = std::max(largest, share * share);
-    const bool few = hit < 10 || all * (1 + 1e-9) < 10 * largest;
-    errors.push_back(few ? unbounded : std::sqrt(n * squares / (n - 1)));
+    errors.push_back(hit < 2 ? unbounded : std::sqrt(n * squares / (n - 1)));
   }
   return errors;
 }
@@ -126,13 +121,25 @@ TEST_SUITE("standard error of irradiance") {
         CHECK(whole.standard_error[d] == doctest::Approx(2 * apart.standard_error[d]).epsilon(0.02));
   }
 
-  TEST_CASE("It is empty unless asked for; with fewer than 10 photons it is infinite, and there is a bound") {
+  TEST_CASE("It is empty unless asked for; with fewer than 10 photons it is weak, with fewer than two infinite") {
+    const auto result = [](const Outcome& one, std::size_t disc) {
+      return DiscResult{one.hits[disc], one.irradiance[disc], one.standard_error[disc], one.upper_bound[disc]};
+    };
     const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 1}, {{5, 0, 0}, {0, 0, 1}, 1}};
     const std::vector<Ray> nine(9, Ray{{0, 0, 1}, {0, 0, -1}, unbounded, 2});
     CHECK(run(make_problem(nine, discs), box_tree).standard_error.empty());
     const Outcome few = run(make_problem(nine, discs), box_tree, {.standard_error = true});
-    CHECK(std::isinf(few.standard_error[0]));
+    CHECK(few.standard_error[0] == 0);  // all rays hit
+    CHECK(is_weak(result(few, 0)));
     CHECK(std::isinf(few.standard_error[1]));
+    CHECK(is_weak(result(few, 1)));
+    std::vector<Ray> two_of_four(4, Ray{{0, 0, 1}, {0, 0, -1}, unbounded, 2});
+    two_of_four[1].origin.x = two_of_four[2].origin.x = 20;
+    const Outcome half = run(make_problem(two_of_four, discs), box_tree, {.standard_error = true});
+    CHECK(half.standard_error[0] == doctest::Approx(std::sqrt(4.0 / 3 * (8 - 4)) / std::numbers::pi));
+    CHECK(is_weak(result(half, 0)));
+    two_of_four[0].origin.x = 20;
+    CHECK(std::isinf(run(make_problem(two_of_four, discs), box_tree, {.standard_error = true}).standard_error[0]));
     const double each = 2 / std::numbers::pi;
     CHECK(few.upper_bound[0] == doctest::Approx(15.70521642 * each).epsilon(1e-9));
     CHECK(few.upper_bound[1] == doctest::Approx(-std::log(0.05) * each).epsilon(1e-12));
@@ -141,20 +148,23 @@ TEST_SUITE("standard error of irradiance") {
     const Outcome enough = run(make_problem(ten, discs), box_tree, {.standard_error = true});
     CHECK(enough.standard_error[0] == 0);  // all rays hit
     CHECK(enough.upper_bound[0] == enough.irradiance[0]);
+    CHECK_FALSE(is_weak(result(enough, 0)));
     const Outcome two = run(make_problem(PathRays{ten, two_photons, {}}, discs), box_tree, {.standard_error = true});
-    CHECK(std::isinf(two.standard_error[0]));
+    CHECK(is_weak(result(two, 0)));
     // u_2 = 6.2958: two photons of weight 10 were seen.
     CHECK(two.upper_bound[0] == doctest::Approx(10 * 6.295793622 / std::numbers::pi).epsilon(1e-9));
   }
 
-  TEST_CASE("If one photon brings more than a tenth of the sum of squares, there is a bound only") {
+  TEST_CASE("If one photon brings more than a tenth of the sum of squares, the error is weak") {
     const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 1}};
     std::vector<Ray> rays(50, Ray{{0, 0, 1}, {0, 0, -1}, unbounded, 1});
     rays.front().power = 2;  // 4 of 53
     CHECK(std::isfinite(run(make_problem(rays, discs), box_tree, {.standard_error = true}).standard_error[0]));
     rays.front().power = 3;  // 9 of 58
     const Outcome outcome = run(make_problem(rays, discs), box_tree, {.standard_error = true});
-    CHECK(std::isinf(outcome.standard_error[0]));
+    CHECK(is_weak({50, outcome.irradiance[0], outcome.standard_error[0], outcome.upper_bound[0]}));
+    CHECK(outcome.standard_error[0] ==
+          doctest::Approx(std::sqrt(50.0 / 49 * (58 - 52.0 * 52 / 50)) / std::numbers::pi));
     // k = 58/9, rounded up: u_7 - 7 = 6.1481
     CHECK(outcome.upper_bound[0] == doctest::Approx((52 + 3 * 6.148113802) / std::numbers::pi).epsilon(1e-8));
   }

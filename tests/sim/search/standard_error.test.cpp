@@ -7,6 +7,7 @@
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/scene/built_in/mesh_pieces.hpp"
+#include "detp/sim/search/irradiance.hpp"
 #include "detp/sim/search/outcome.hpp"
 #include "detp/sim/technique/technique.hpp"
 
@@ -48,7 +49,9 @@ FoundErrors repeat_paths(const Scene& scene, double share, std::size_t rays, boo
   std::vector<double> ratios;
   double intervals = 0;
   for (std::size_t d = 0; d < discs.size(); ++d) {
-    if (!std::ranges::all_of(outcomes, [d](const Outcome& one) { return std::isfinite(one.standard_error[d]); }))
+    if (std::ranges::any_of(outcomes, [d](const Outcome& one) {
+          return is_weak({one.hits[d], one.irradiance[d], one.standard_error[d], one.upper_bound[d]});
+        }))
       continue;
     double sum = 0;
     double reported = 0;

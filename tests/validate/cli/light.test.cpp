@@ -46,7 +46,7 @@ TEST_SUITE("end to end") {
       for (const char* count : {"polygons_split", "not_plane", "degenerate", "coincident", "normals_made"})
         CHECK(json.at("geometry").at(count) == 0);
     }
-    const Json until = result_of("run @cornell --target-noise 20% --estimator triangle-hits");
+    const Json until = result_of("run @cornell --target-noise 5% --estimator triangle-hits");
     CHECK(until.at("rays").get<double>() > (1 << 16) + 1000);  // more than the first stage
     CHECK(until.at("light").at("photons") == until.at("photons"));
     CHECK(std::abs(sum_of_shares(until.at("light")) - 1) < 1e-12);

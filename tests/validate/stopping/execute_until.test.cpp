@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -43,6 +44,54 @@ TEST_SUITE("stopping") {
       CHECK(photons == static_cast<double>(job.independent_photons()));
       CHECK(sum_of_shares == doctest::Approx(1));
     }
+  }
+
+  TEST_CASE("photons drawn in random order: all of them, with their rays; another seed draws others first") {
+    Job job = job_of("@cornell", 4000);
+    std::vector<double> firsts;
+    for (const std::uint64_t seed : {5ULL, 6ULL}) {
+      StoredBatches stored(job.paths(), job.independent_photons(), seed);
+      std::vector<double> origins;
+      double photons = 0;
+      while (const auto batch = stored.next(97)) {
+        REQUIRE(batch->rays.rays.size() == batch->rays.landings.size());
+        check(*batch);
+        CHECK(batch->rays.photon_count == static_cast<std::uint64_t>(batch->photons));
+        for (const sim::Ray& ray : batch->rays.rays) origins.push_back(ray.origin.x);
+        photons += batch->photons;
+      }
+      CHECK(photons == static_cast<double>(job.independent_photons()));
+      firsts.push_back(origins.front());
+      std::vector<double> all;
+      for (const sim::Ray& ray : job.rays) all.push_back(ray.origin.x);
+      std::ranges::sort(all);
+      std::ranges::sort(origins);
+      CHECK(origins == all);
+    }
+    CHECK(firsts[0] != firsts[1]);
+    // Going on after a batch.
+    StoredBatches whole(job.paths(), job.independent_photons(), 5);
+    const auto first = whole.next(500);
+    StoredBatches later(job.paths(), job.independent_photons(), 5);
+    later.skip(static_cast<std::uint64_t>(first->photons), first->rays.rays.size());
+    CHECK(later.next(10)->rays.rays.front().origin == whole.next(10)->rays.rays.front().origin);
+  }
+
+  TEST_CASE("a random order has each number once, and no place is special") {
+    for (const std::uint64_t count : {1ULL, 2ULL, 3ULL, 1000ULL, 4097ULL}) {
+      std::vector<char> seen(count);
+      const RandomOrder order(count, 3);
+      for (std::uint64_t i = 0; i < count; ++i) {
+        REQUIRE(order[i] < count);
+        CHECK(!seen[order[i]]);
+        seen[order[i]] = 1;
+      }
+    }
+    // The mean of the first hundred of a thousand, over many seeds: 499.5 with a standard error of 8.7/√200.
+    double sum = 0;
+    for (std::uint64_t seed = 0; seed < 200; ++seed)
+      for (std::uint64_t i = 0; i < 100; ++i) sum += static_cast<double>(RandomOrder(1000, seed)[i]) / 100 / 200;
+    CHECK(std::abs(sum - 499.5) < 4 * 27.4 / std::sqrt(200.0));
   }
 
   TEST_CASE("the irradiance of a plan that is executed until an error is that of one search of the same rays") {

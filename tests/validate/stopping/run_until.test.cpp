@@ -152,13 +152,25 @@ TEST_SUITE("stopping") {
     CHECK(std::pow(unequal.noise(0.9).value, 2) * unequal.mean_square() == doctest::Approx(of_photon / 800));
   }
 
-  TEST_CASE("a run ends after a test, not after its first stage; a bias, the end of the rays and a stop end it too") {
+  TEST_CASE("a run ends after any stage, the first one too; a bias, the end of the rays and a stop end it") {
     Light light{.discs = 4, .hit = 0.5, .random = std::mt19937_64{7}};
     const UntilResult easy = run_until(batches_of(light), equal(4), {.error = 0.5}, {.first_rays = 3200});
     CHECK(easy.reason == StopReason::target);
-    CHECK(easy.tests == 1);
-    CHECK(easy.rays > 3200);
-    CHECK(easy.rays < 4000);
+    CHECK(easy.tests == 0);
+    CHECK(easy.looks == 1);
+    CHECK(easy.rays == 3200);
+    CHECK(easy.noise.high <= 0.5);
+    const UntilResult later = run_until(batches_of(light), equal(4), {.error = 0.02}, {.first_rays = 3200});
+    CHECK(later.reason == StopReason::target);
+    CHECK(later.tests >= 1);
+    // Whatever is printed does not contradict the reason: also if the rays end in the first stage.
+    const UntilResult only =
+        run_until(batches_of(light), equal(4), {.error = 0.5}, {.most_rays = 3000, .first_rays = 3200});
+    CHECK(only.reason == StopReason::target);
+    const UntilResult not_reached =
+        run_until(batches_of(light), equal(4), {.error = 1e-3}, {.most_rays = 3000, .first_rays = 3200});
+    CHECK(not_reached.reason == StopReason::rays);
+    CHECK(not_reached.noise.high > 1e-3);
     const UntilResult biased = run_until(batches_of(light), equal(4),
                                          {.error = 0.05, .bias_squared = Estimate{0.0024, 1e-4}}, {.first_rays = 3200});
     CHECK(biased.reason == StopReason::bias);
@@ -180,6 +192,8 @@ TEST_SUITE("stopping") {
     };
     const UntilResult partial = run_until(stopped, equal(4), {.error = 0.001}, {.first_rays = 3200});
     CHECK(partial.reason == StopReason::time);
+    batches = 0;
+    CHECK(run_until(stopped, equal(4), {.error = 0.1}, {.first_rays = 64'000}).reason == StopReason::target);
     CHECK(partial.noise.value > 0);
     CHECK(partial.rays > 3200);
     const NextBatch few = [&](std::uint64_t rays, std::uint64_t) {

@@ -36,11 +36,6 @@ std::string_view rays_of(const validate::Job& job) {
   return job.field == sim::Field::photons ? "pieces of photon paths" : "isotropic lines";
 }
 
-/// ", 40 123 photons"; empty if each ray is a photon of its own.
-std::string photons_of(const validate::Job& job) {
-  return job.numbered() ? fmt::format(", {} photons", spaced(static_cast<double>(job.independent_photons()))) : "";
-}
-
 std::string scene_line(const validate::Job& job, const std::string& measured) {
   const Workload& w = job.given;
   std::string text = fmt::format("scene     {}: ", shown_path(job.name));
@@ -49,9 +44,15 @@ std::string scene_line(const validate::Job& job, const std::string& measured) {
                             w.disc_radius, 100 * w.disc_radius / scene_side(w), measured);
 }
 
-std::string rays_line(const validate::Job& job, std::string_view before, const std::string& lengths) {
-  return fmt::format("rays      {}{} {}{}{}{}{}\n", before, spaced(job.given.rays), rays_of(job), photons_of(job),
-                     lengths, lights_of(job), job.light ? sim::lost_light(*job.light) : "");
+RaysTaken rays_taken(const validate::Job& job) {
+  return {job.given.rays, static_cast<double>(job.independent_photons()), job.light};
+}
+
+std::string rays_line(const validate::Job& job, const RaysTaken& taken, const std::string& lengths) {
+  // photons are told unless each ray is one
+  const std::string photons = job.numbered() ? fmt::format(", {} photons", spaced(taken.photons)) : "";
+  return fmt::format("rays      {} {}{}{}{}{}\n", spaced(taken.rays), rays_of(job), photons, lengths, lights_of(job),
+                     taken.light ? sim::lost_light(*taken.light) : "");
 }
 
 /// ", mean length 0.30 of the scene's side", or that predictions neglect the ends; empty for lines.
@@ -167,12 +168,12 @@ void note_all(const CommonOptions& common, const validate::Job& job) {
 std::string describe(const validate::Job& job) {
   const Workload& w = job.workload();
   return scene_line(job, fmt::format(", X = {:.2f}, D = {:.2f}", sample_distance(w) / w.disc_radius, w.dimension)) +
-         rays_line(job, "", lengths_of(job));
+         rays_line(job, rays_taken(job), lengths_of(job));
 }
 
-std::string describe_given(const validate::Job& job, std::string_view before_rays) {
+std::string describe_given(const validate::Job& job, const std::optional<RaysTaken>& taken) {
   if (job.without_rays) return scene_line(job, lights_of(job));
-  return scene_line(job, "") + rays_line(job, before_rays, "");
+  return scene_line(job, "") + rays_line(job, taken.value_or(rays_taken(job)), "");
 }
 
 std::string threads_text(int threads) { return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"); }

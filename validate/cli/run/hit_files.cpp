@@ -38,15 +38,16 @@ void write_per_disc(const std::string& path, const TimedRun& run, const std::vec
   const bool errors = run.results ? run.results->errors() : !run.outcome.standard_error.empty();
   sim::WritingCheck check(path, disc_count(run), "discs", stop);
   sim::OutputFile file(path, stop);
-  file.write(fmt::format("disc,hits,irradiance{}{}\n", errors ? ",standard_error,upper_bound" : "",
+  file.write(fmt::format("disc,hits,irradiance{}{}\n", errors ? ",standard_error,upper_bound,standard_error_weak" : "",
                          vertices.empty() ? "" : ",vertex"));
   std::uint64_t disc = 0;
   for_each_disc(run, [&](const sim::DiscResult& found) {
     check.next();
-    const std::string error = !errors                               ? ""
-                              : std::isfinite(found.standard_error) ? fmt::format(",{},", found.standard_error)
-                              : std::isfinite(found.upper_bound)    ? fmt::format(",,{}", found.upper_bound)
-                                                                    : ",,";  // no surface near the sample
+    const auto finite = [](double one) { return std::isfinite(one) ? fmt::format("{}", one) : std::string(); };
+    const bool weak = sim::is_weak(found);
+    const std::string error = !errors ? ""
+                                      : fmt::format(",{},{},{}", finite(found.standard_error),
+                                                    weak ? finite(found.upper_bound) : "", weak ? 1 : 0);
     const std::string vertex = vertices.empty()                   ? ""
                                : vertices[disc] == sim::no_vertex ? ",-1"
                                                                   : fmt::format(",{}", vertices[disc]);

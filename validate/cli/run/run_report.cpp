@@ -110,6 +110,14 @@ std::string hits_text(const RunAnswer& answer) {
   return text;
 }
 
+/// Nothing if a run took the job's rays.
+std::optional<RaysTaken> taken_by(const validate::Job& job, const RunAnswer& answer) {
+  if (!answer.until) return std::nullopt;
+  const validate::UntilResult& result = answer.until->result;
+  return RaysTaken{static_cast<double>(result.rays), result.photons,
+                   job.light ? std::optional(answer.until->light) : std::nullopt};
+}
+
 std::uint64_t discs_without_hits(const TimedRun& run) {
   std::uint64_t count = 0;
   for_each_disc(run, [&](const sim::DiscResult& disc) { count += disc.hits == 0 ? 1 : 0; });
@@ -186,11 +194,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                {"stopped", outcome.stopped}});
   json.update(ledgers_json(job));
   if (gathers(answer)) json.erase("light");
-  if (job.light && answer.until) {
-    sim::LightLedger all = *job.light;
-    all += answer.until->light;
-    json["light"] = light_json(all);
-  }
+  if (job.light && answer.until) json["light"] = light_json(answer.until->light);
   if (json.contains("geometry") && !outcome.stopped) json["geometry"]["samples_unlit"] = discs_without_hits(answer.run);
   if (const auto& seconds = answer.run.rank_seconds; !seconds.empty())
     json["ranks"] = {{"count", seconds.size()},
@@ -354,7 +358,7 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
   const Timing& timing = answer.timing;
   std::string text;
   if (answer.until) text += wrapped(until_text(*answer.until, scene_side(job.given)), screen.text_width(), 10);
-  text += wrapped(describe_given(job, answer.until ? "of the first stage: " : ""), screen.text_width(), 10);
+  text += wrapped(describe_given(job, taken_by(job, answer)), screen.text_width(), 10);
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   if (answer.estimator != sim::Estimator::disc)
     add(fmt::format(

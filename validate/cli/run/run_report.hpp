@@ -32,7 +32,7 @@ struct UntilAnswer {
   validate::UntilResult result = {};
   std::optional<BiasEstimate> bias = {};
   double seconds = 0;           ///< with choosing, the bias's pilot, tracing and building
-  sim::LightLedger light = {};  ///< of the batches that follow the job's own rays
+  sim::LightLedger light = {};  ///< of all photons that were traced
 
   /// Noise and bias together; without a known bias the noise.
   [[nodiscard]] validate::NoiseInterval error() const {

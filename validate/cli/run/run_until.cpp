@@ -230,13 +230,14 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   if (until.bias) target.bias_squared = until.bias->squared;
   validate::JobSearch search = search_here();
   validate::SharedBatches batches(job, search, stop, ranks);
-  validate::UntilOptions stages{.most_rays = limit,
-                                .first_rays = job.rays.size(),
-                                .most_in_batch = sim::default_block(job.discs.size()),
-                                .progress = progress};
+  validate::UntilOptions stages{
+      .most_rays = limit,
+      .first_rays = static_cast<std::uint64_t>(first_rays(static_cast<double>(job.rays.size()))),
+      .most_in_batch = sim::default_block(job.discs.size()),
+      .progress = progress};
   validate::ExecutedUntil before;
   if (saved) {
-    batches.skip(saved->state.batch_count(), saved->state.rays);
+    batches.skip(saved->state.batch_count(), saved->state.batches.photons, saved->state.rays);
     stages.resume = std::move(saved->state);
     before = std::move(saved->so_far);
   }
@@ -260,14 +261,8 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   answer.run.rays_in_memory = job.rays.size();
   answer.timing.phases = outcome.seconds;
   until.light = found.light;
+  if (job.light) until.light += *job.light;
   until.result = std::move(found.result);
-  if (!until.bias && has_bias(job) && until.result.reason != validate::StopReason::time) try {
-      constexpr double share = 0.25;  // of the run's rays: the user asked for noise alone
-      until.bias = bias_of(job, answer.estimator, target.error, share * static_cast<double>(until.result.rays), threads,
-                           weights, stop);
-    } catch (const sim::Stopped&) {       // the answer is complete without it
-    } catch (const validate::NoLight&) {  // nor is a bias known
-    }
   until.seconds = watch.seconds() + job.trace_seconds;
   answer.until = std::move(until);
 }
@@ -283,7 +278,7 @@ Json to_json(const UntilAnswer& until) {
             {"confidence", until.confidence},
             {"photons", result.photons},
             {"rays", result.rays},
-            {"stop_tests", result.tests},
+            {"stop_tests", result.tests + result.looks},
             {"stopped_because", name(result.reason)},
             {"until_seconds", until.seconds}};
   if (result.share_bound) json["share_bound"] = *result.share_bound;

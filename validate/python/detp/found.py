@@ -32,7 +32,7 @@ class Found(_PerDisc):
 
     hits: npt.NDArray[np.uint64]  #: (n,) rays that cross the disc
     irradiance: Floats  #: (n,) their power over the disc's area
-    standard_error: Optional[Floats]  #: (n,) of the irradiance; infinite where only a bound is known
+    standard_error: Optional[Floats]  #: (n,) of the irradiance; infinite with fewer than two photons
     upper_bound: Optional[Floats]  #: (n,) one-sided, 95 %, of the irradiance
     offsets: Optional[npt.NDArray[np.uint64]]  #: (n + 1,) the pairs in compressed rows: the rays that cross disc i are
     rays: Optional[npt.NDArray[np.uint32]]  #: (total_hits,) rays[offsets[i]:offsets[i + 1]], ascending

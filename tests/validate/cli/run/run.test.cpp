@@ -96,7 +96,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("--standard-error adds two columns, and changes no other") {
+  TEST_CASE("--standard-error adds three columns, and changes no other") {
     const ScratchFolder folder;
     const auto written = [&](const std::string& more) {
       const std::string path = folder.path("discs.csv");
@@ -104,26 +104,28 @@ TEST_SUITE("end to end") {
       return support::content_of(path);
     };
     const std::string with = written(" --standard-error");
-    CHECK(with.starts_with("disc,hits,irradiance,standard_error,upper_bound\n"));
+    CHECK(with.starts_with("disc,hits,irradiance,standard_error,upper_bound,standard_error_weak\n"));
     std::string without;
-    int errors = 0;
     for (const std::string& row : rows_of(with)) {
-      const std::size_t bound_at = row.rfind(',') + 1;
-      const std::size_t error_at = row.rfind(',', bound_at - 2) + 1;
-      const std::size_t hits_at = row.find(',') + 1;
-      const double hits = std::stod(row.substr(hits_at));
-      const double irradiance = std::stod(row.substr(row.find(',', hits_at) + 1));
+      const auto from_end = row.rfind(',', row.rfind(',', row.rfind(',') - 1) - 1);
+      without += row.substr(0, from_end) + "\n";
+    }
+    int errors = 0;
+    for (const CsvRow& row : csv_rows(with)) {
+      const double hits = number(row, "hits");
+      const double irradiance = number(row, "irradiance");
       // All lines carry the same power.
       const double expected = irradiance * std::sqrt((1 - hits / 3000) / hits * 3000 / 2999);
-      if (hits >= 10) {
-        CHECK(std::stod(row.substr(error_at)) == doctest::Approx(expected));
-        CHECK(bound_at == row.size());
-        ++errors;
-      } else {
-        CHECK(row[error_at] == ',');
-        CHECK(std::stod(row.substr(bound_at)) > irradiance);
-      }
-      without += row.substr(0, error_at - 1) + "\n";
+      if (hits >= 2)
+        CHECK(number(row, "standard_error") == doctest::Approx(expected));
+      else
+        CHECK(row.at("standard_error").empty());
+      CHECK(row.at("standard_error_weak") == (hits >= 10 ? "0" : "1"));
+      if (hits >= 10)
+        CHECK(row.at("upper_bound").empty());
+      else
+        CHECK(number(row, "upper_bound") > irradiance);
+      errors += hits >= 10 ? 1 : 0;
     }
     CHECK(errors > 0);
     CHECK(errors < 40);
@@ -156,8 +158,7 @@ TEST_SUITE("end to end") {
     };
     const auto [errors, pairs, json, err] = result(together);
     // 12 of 24 photons hit, each with two rays.
-    const std::string row = rows_of(errors).front();
-    CHECK(std::stod(row.substr(row.rfind(',', row.size() - 2) + 1)) ==
+    CHECK(number(csv_rows(errors).front(), "standard_error") ==
           doctest::Approx(2 * std::sqrt(24 * 0.25 * 24 / 23.0) / std::numbers::pi));
     CHECK(json["photons"] == 24);
     CHECK(json["rays"] == 48);
