@@ -1,6 +1,11 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
 
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/geometry/closest_point.hpp"
@@ -41,11 +46,35 @@ class LandingsWithin {
   Near& near_;
 };
 
+/// Areas around some discs: below 0 if the nearest triangle is turned round.
+struct Areas {
+  std::uint64_t digest = 0;  ///< of the discs
+  std::vector<double> of_disc;
+};
+
+std::uint64_t digest_of(std::span<const Disc> discs) {
+  std::uint64_t digest = discs.size();
+  const auto add = [&](double value) {
+    digest = (digest ^ std::bit_cast<std::uint64_t>(value)) * 0x9e3779b97f4a7c15ULL;
+    digest ^= digest >> 29;
+  };
+  for (const Disc& disc : discs) {
+    for (int axis = 0; axis < 3; ++axis) add(disc.centre[axis]);
+    for (int axis = 0; axis < 3; ++axis) add(disc.normal[axis]);
+    add(disc.radius);
+  }
+  return digest;
+}
+
 class AreaCorrected {
  public:
-  AreaCorrected(const Problem& problem, const NearTriangles& triangles, const std::stop_token& stop)
+  /// `known`: areas of the same discs, or none; then `measured` gets them.
+  AreaCorrected(const Problem& problem, const NearTriangles& triangles, const Areas* known, Areas& measured,
+                const std::stop_token& stop)
       : problem_(problem),
         triangles_(triangles),
+        known_(known),
+        measured_(measured),
         check_(stop, "sorting photons"),
         cloud_{landings_of(problem, check_), &check_} {
     cloud_.building = nullptr;
@@ -55,7 +84,10 @@ class AreaCorrected {
 
   void find(std::uint32_t number, Near& near) const {
     const Disc& disc = problem_.discs()[number];
-    const double side = measure(disc, near);
+    const double signed_area = known_ != nullptr ? known_->of_disc[number] : measure(disc);
+    if (known_ == nullptr) measured_.of_disc[number] = signed_area;
+    near.area = std::abs(signed_area);
+    const double side = signed_area < 0 ? -1 : 1;
     if (!(near.area > 0)) return;
     const auto counts = [&](std::uint32_t ray) {
       const std::uint32_t triangle = problem_.triangles()[ray];
@@ -72,8 +104,8 @@ class AreaCorrected {
     return side * glm::dot(triangles_.facet(triangle).normal, disc.normal) >= least_cosine;
   }
 
-  /// Sets the area. Returns 1, or -1 if the nearest triangle is turned round.
-  double measure(const Disc& disc, Near& near) const {
+  /// The area, below 0 if the nearest triangle is turned round.
+  [[nodiscard]] double measure(const Disc& disc) const {
     double areas[2]{};  // of triangles that face as the disc does, and the other way
     double least = unbounded;
     std::uint32_t nearest = no_triangle;
@@ -96,12 +128,13 @@ class AreaCorrected {
         turned = !facing;
       }
     });
-    near.area = areas[turned ? 1 : 0];
-    return turned ? -1 : 1;
+    return turned ? -areas[1] : areas[0];
   }
 
   const Problem& problem_;
   const NearTriangles& triangles_;
+  const Areas* known_;
+  Areas& measured_;
   StopCheck check_;
   LandingCloud cloud_;
   LandingKdTree tree_{3, cloud_};
@@ -114,19 +147,38 @@ class AreaCorrectedIndex final : public Index {
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
-    add_checked_bytes("photons near discs", landing_tree_bytes(problem) + near_bytes(problem, options), problem,
-                      outcome);
+    const std::size_t discs = problem.discs().size();
+    add_checked_bytes(
+        "photons near discs",
+        landing_tree_bytes(problem) + near_bytes(problem, options) + static_cast<double>(discs * sizeof(double)),
+        problem, outcome);
     Stopwatch watch;
-    const AreaCorrected estimates(problem, triangles_, options.stop);
+    const std::uint64_t digest = digest_of(problem.discs());
+    const std::shared_ptr<const Areas> last = last_areas();
+    const bool known = last != nullptr && last->digest == digest;
+    const auto measured = std::make_shared<Areas>();
+    measured->digest = digest;
+    if (!known) measured->of_disc.resize(discs);
+    const AreaCorrected estimates(problem, triangles_, known ? last.get() : nullptr, *measured, options.stop);
     outcome.seconds.build = watch.lap();
     sum_near(
         problem, options, [&](std::uint32_t disc, Near& near) { estimates.find(disc, near); }, outcome);
     if (options.count) outcome.counts.references = estimates.landings();
+    if (known || outcome.stopped) return;
+    const std::lock_guard lock(mutex_);
+    last_ = measured;
   }
 
  private:
+  [[nodiscard]] std::shared_ptr<const Areas> last_areas() const {
+    const std::lock_guard lock(mutex_);
+    return last_;
+  }
+
   Stopwatch watch_;
   NearTriangles triangles_;
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<const Areas> last_;  ///< of the last search: batches of rays have the same discs
 };
 
 }  // namespace

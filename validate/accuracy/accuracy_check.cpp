@@ -179,19 +179,17 @@ AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, doub
           .share_within = share_within(whole.irradiance, options.reference, within * std::sqrt(mean_square))};
 }
 
-double correct_answer(AccuracyPlan& plan, const AccuracyCheck& check) {
-  constexpr double clearly = 0.1;
-  AccuracyPoint& best = plan.answer;
-  const double ratio = check.noise / best.noise;
-  if (plan.target.kind != AccuracyTarget::Kind::noise || !plan.reached || !(ratio > 0) || std::abs(ratio - 1) < clearly)
-    return 1;
-  const double factor = ratio * ratio;
-  best.rays *= factor;
-  best.photons *= factor;
-  best.seconds = check.seconds * factor;
-  best.trace_seconds = check.trace_seconds * factor;
-  if (best.nearest > 0) best.nearest = static_cast<int>(std::clamp(std::round(best.nearest * factor), 3.0, 1e9));
-  return factor;
+AccuracyPilot with_check(AccuracyPilot pilot, const AccuracyPoint& point, const AccuracyCheck& check) {
+  const auto own = std::ranges::find(pilot.estimators, point.estimator, &EstimatorPilot::estimator);
+  if (own == pilot.estimators.end() || !(check.noise > 0) || point.estimator == sim::Estimator::gather) return pilot;
+  // Each ray of both says as much of the noise² of one ray.
+  const double ratio = std::pow(check.noise / point.noise, 2) * check.rays / point.rays;
+  const double pooled = (pilot.rays + ratio * check.rays) / (pilot.rays + check.rays);
+  for (SettingPilot& setting : own->settings) {
+    setting.noise_squared_times_rays.mean *= pooled;
+    setting.noise_squared_times_rays.standard_error *= pooled;
+  }
+  return pilot;
 }
 
 std::uint64_t check_seeds(std::uint64_t first, std::uint64_t last) {

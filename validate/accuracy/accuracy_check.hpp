@@ -27,9 +27,8 @@ struct AccuracyCheck {
 [[nodiscard]] AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, double mean_square,
                                            const AccuracyPilotOptions& options, double within = 0.05);
 
-/// If the check had clearly another noise than predicted (by more than 10 %) and the target is a noise: sets the answer's rays and seconds
-/// to those that the check says are needed. Returns the factor by which the rays changed.
-double correct_answer(AccuracyPlan& plan, const AccuracyCheck& check);
+/// The pilot with what the check says of the noise of the point's estimator: the mean of both by their rays. A plan from it ranks again.
+[[nodiscard]] AccuracyPilot with_check(AccuracyPilot pilot, const AccuracyPoint& point, const AccuracyCheck& check);
 
 /// One of many runs of a plan's answer.
 struct AccuracyRerun {

@@ -20,7 +20,7 @@ constexpr std::size_t samples_judged = 1000;  // of the runs; times are taken wi
 constexpr std::array radii_over_distance{0.25, 0.5, 1.0, 2.0};
 constexpr std::array nearest_of_run{5, 10, 20, 40};  // k in a run of the pilot
 constexpr int batches_of_missed_light = 8;
-constexpr double first_photons_of_a_batch = 1 << 14;
+constexpr double first_photons_of_a_batch = 1 << 12;
 constexpr double patch_over_edge =
     0.25;  // of missed light: more than in references, or a pilot's photons would be too few
 
@@ -32,20 +32,13 @@ Estimate scaled(const Estimate& one, double factor) { return {one.mean * factor,
 class PilotMaker::Runs {
  public:
   Runs(PilotMaker& of, double rays, const AccuracyPilot* before) : of_(of), options_(of.options_), before_(before) {
-    pilot_.sample_distance = sim::mean_edge_length(of.scene_.mesh, options_.stop);
-    if (!(pilot_.sample_distance > 0))
-      throw std::invalid_argument("accuracy needs a mesh with triangles; " + of.scene_.name + " has none with edges");
-    radii_ = options_.radii;
-    if (radii_.empty())
-      for (const double share : radii_over_distance) radii_.push_back(share * pilot_.sample_distance);
+    pilot_.sample_distance = of.edge_;
+    pilot_.trace = of.costs_.trace();
+    radii_ = of.radii();
     rays_of_run_ = std::max<std::size_t>(200, static_cast<std::size_t>(rays / runs));
     for (std::size_t place : of.judged_.places)
       if (!options_.relative.empty()) relative_.push_back(options_.relative[place]);
-    const auto wanted = [&](sim::Estimator one) {
-      return options_.estimators.empty() || std::ranges::find(options_.estimators, one) != options_.estimators.end();
-    };
-    for (const sim::EstimatorRecord& record : sim::estimators)
-      if (wanted(record.estimator)) pilot_.estimators.push_back(with_settings(record.estimator));
+    pilot_.estimators = of.settings_of(static_cast<double>(rays_of_run_));
   }
 
   /// `reference`: the truth; `by_paths`: what gather finds.
@@ -61,7 +54,7 @@ class PilotMaker::Runs {
     if (!met_ && std::ranges::any_of(pilot_.estimators, by_photons)) throw NoLight(without_light());
     for (EstimatorPilot& one : pilot_.estimators)
       if (one.estimator == sim::Estimator::gather) measure_gather(one, by_paths);
-    pilot_.rays = static_cast<double>(runs * rays_of_run_);
+    pilot_.rays = pilot_rays();
     pilot_.judge = {reference.kind,    reference.paths,   reference.photons,    reference.judged.samples.size(),
                     reference.error(), reference.seconds, reference.missed_mean};
     pilot_.seconds = watch_.seconds();
@@ -69,48 +62,20 @@ class PilotMaker::Runs {
   }
 
  private:
-  [[nodiscard]] EstimatorPilot with_settings(sim::Estimator estimator) const {
-    EstimatorPilot pilot{.estimator = estimator, .settings = {}};
-    const auto add = [&](const AccuracySetting& setting, double scale) {
-      SettingPilot one;
-      one.setting = setting;
-      one.scale = scale;
-      pilot.settings.push_back(one);
-    };
-    if (uses_radius(estimator))
-      for (const double radius : radii_) add({estimator, radius}, radius);
-    else if (estimator == sim::Estimator::nearest)
-      for (const int k : nearest_of_run)
-        add({.estimator = estimator, .nearest = k}, k / static_cast<double>(rays_of_run_));
-    else
-      add({.estimator = estimator}, 1);
-    return pilot;
-  }
-
   void report(const char* doing) {
     if (options_.progress) options_.progress({doing, 0, 1});
   }
 
-  /// Makes the paths of all runs; a longer run measures the time.
+  /// Makes the paths of all runs.
   void trace() {
     double photons = 0;
-    double seconds = 0;
-    ReplicateMaker& maker = of_.maker_;
-    maker.decide_overshoot();
+    of_.maker_.decide_overshoot();
     for (std::size_t run = 0; run < runs; ++run) {
-      sim::Stopwatch watch;
-      sim::TracedPaths traced = maker.trace(rays_of_run_, seed(run), radii_.back());
-      seconds += watch.seconds() / runs;
+      sim::TracedPaths traced = of_.maker_.trace(rays_of_run_, seed(run), radii_.back());
       pilot_.light += traced.light;
       paths_.push_back(std::move(traced));
       photons += static_cast<double>(paths_.back().photon_count);
     }
-    sim::Stopwatch watch;
-    sim::TracedPaths longer = maker.trace(4 * rays_of_run_, seed(runs), radii_.back());
-    set_times(seconds, watch.seconds(), pilot_.trace_fixed_seconds, pilot_.trace_seconds_per_ray);
-    pilot_.light += longer.light;
-    long_paths_ = std::move(longer);
-    pilot_.trace_fixed_seconds += maker.caster_seconds();
     pilot_.photons_per_ray = photons / static_cast<double>(runs * rays_of_run_);
   }
 
@@ -118,21 +83,22 @@ class PilotMaker::Runs {
     return options_.seed * 0x9e3779b97f4a7c15ULL + 7919 * (run + 1);
   }
 
-  /// From the times with n and with 4n rays.
-  void set_times(double with_one, double with_four, double& fixed, double& per_ray) const {
-    const auto n = static_cast<double>(rays_of_run_);
-    per_ray = std::max(with_four - with_one, 0.1 * with_four) / (3 * n);
-    fixed = std::max(0.0, with_one - per_ray * n);
-  }
+  /// The irradiance of the runs at the judged samples.
+  struct Found {
+    std::vector<std::vector<double>> irradiance;
+    double hits = 0;  ///< of all runs
+  };
 
-  [[nodiscard]] std::vector<std::vector<double>> runs_of(const AccuracySetting& setting) {
+  [[nodiscard]] Found runs_of(const AccuracySetting& setting) {
     const double overshoot = of_.maker_.overshoot(uses_radius(setting.estimator) ? setting.radius : 0);
-    std::vector<std::vector<double>> all;
+    Found all;
     for (const sim::Paths& paths : paths_) {
       const std::vector<sim::Ray> rays = with_overshoot(paths, of_.scene_, overshoot);
       sim::PathRays same = paths;
       same.rays = rays;
-      all.push_back(of_.maker_.estimate(same, of_.judged_.samples, setting, false, relative_).irradiance);
+      sim::Outcome outcome = of_.maker_.estimate(same, of_.judged_.samples, setting, false, relative_);
+      all.irradiance.push_back(std::move(outcome.irradiance));
+      all.hits += static_cast<double>(outcome.total_hits);
     }
     return all;
   }
@@ -171,29 +137,31 @@ class PilotMaker::Runs {
       SettingPilot& setting = one.settings[i];
       if (earlier != nullptr && earlier->settings[i].settled) {
         setting = earlier->settings[i];
-        setting.seconds *= static_cast<double>(rays_of_run_) / earlier->rays_of_run;
         continue;
       }
-      sim::Stopwatch watch;
-      const auto found = runs_of(setting.setting);
-      setting.seconds = watch.seconds() / runs;
-      for (const auto& run : found) met_ = met_ || std::ranges::any_of(run, [](double one) { return one > 0; });
-      const ErrorSplit split = split_error(found, reference.values());
+      const Found found = runs_of(setting.setting);
+      setting.seconds = of_.seconds_of(setting, found.hits / pilot_rays());
+      for (const auto& run : found.irradiance)
+        met_ = met_ || std::ranges::any_of(run, [](double one) { return one > 0; });
+      const ErrorSplit split = split_error(found.irradiance, reference.values());
+      // a photon that meets several discs brings as many terms
+      const double of_photon = std::max(1.0, found.hits / (pilot_rays() * pilot_.photons_per_ray));
+      if (split.noise_terms > 0) setting.rare_photons = std::max(1.0, split.noise_terms / of_photon);
       setting.noise_squared_times_rays = scaled(split.noise_squared, static_cast<double>(rays_of_run_));
       setting.bias_squared = split.bias_squared;
       setting.mean_bias = split.mean_bias;
       variance += std::pow(split.bias_squared.standard_error, 2);
       by_reference += split.by_reference;
     }
+    one.runs = runs;
     one.by_reference = variance > 0 ? by_reference / variance : 0;
-    set_seconds(one);
-    one.surface_seconds = of_.maker_.surface_seconds(one.estimator);
   }
+
+  [[nodiscard]] double pilot_rays() const { return static_cast<double>(runs * rays_of_run_); }
 
   /// Rays are backward paths of one sample, on each side.
   void measure_gather(EstimatorPilot& one, const Reference& reference) const {
     SettingPilot& setting = one.settings.front();
-    const auto paths = static_cast<double>(std::max<std::uint64_t>(1, reference.paths));
     const auto samples = static_cast<double>(of_.scene_.samples.size());
     const double noise = reference.path_noise_squared;
     const auto judged = static_cast<double>(of_.judged_.samples.size());
@@ -202,33 +170,8 @@ class PilotMaker::Runs {
     setting.noise_squared_times_rays = {noise, noise * error};
     setting.bias_squared = reference.missed_squared;
     setting.mean_bias = {-reference.missed_mean, 0};
-    setting.seconds = reference.seconds_of_path * samples * paths;
-    one.rays_of_run = paths;
+    setting.seconds = {of_.costs_.caster(), samples * of_.costs_.path(1 / pilot_.photons_per_ray), 0};
     one.runs = runs;
-    one.surface_seconds = of_.maker_.caster_seconds();
-  }
-
-  /// Times with all samples: those of the middle setting with n and with 4n rays; the others in proportion to the times of the runs.
-  void set_seconds(EstimatorPilot& one) const {
-    std::vector<const SettingPilot*> timed;
-    for (const SettingPilot& setting : one.settings)
-      if (!setting.settled) timed.push_back(&setting);
-    const SettingPilot& middle = *timed[timed.size() / 2];
-    const auto time = [&](const sim::Paths& paths) {
-      sim::Stopwatch watch;
-      static_cast<void>(of_.maker_.estimate(paths, of_.scene_.samples, middle.setting, false, options_.relative));
-      return watch.seconds();
-    };
-    const double with_one = time(paths_.front());
-    double fixed = 0;
-    double per_ray = 0;
-    set_times(with_one, time(long_paths_), fixed, per_ray);
-    one.rays_of_run = static_cast<double>(rays_of_run_);
-    one.runs = runs;
-    one.fixed_share = std::clamp(fixed / with_one, 0.0, 1.0);
-    const double scale = with_one / middle.seconds;
-    for (SettingPilot& setting : one.settings)
-      if (!setting.settled) setting.seconds *= scale;
   }
 
   PilotMaker& of_;
@@ -240,19 +183,22 @@ class PilotMaker::Runs {
   std::vector<double> relative_;
   std::size_t rays_of_run_ = 0;
   std::vector<sim::Paths> paths_;
-  sim::Paths long_paths_;
   bool met_ = false;  ///< some photon met some sample
 };
 
 PilotMaker::PilotMaker(sim::Scene& scene, AccuracyPilotOptions options)
     : scene_(scene),
       options_(std::move(options)),
-      maker_(scene, options_.front_facing, options_.threads, options_.stop) {
+      maker_(scene, options_.front_facing, options_.threads, options_.stop),
+      costs_(scene.mesh.triangles.size(), options_.threads),
+      edge_(sim::mean_edge_length(scene.mesh, options_.stop)) {
+  if (!(edge_ > 0))
+    throw std::invalid_argument("accuracy needs a mesh with triangles; " + scene.name + " has none with edges");
   judged_ = options_.reference != nullptr ? options_.reference->judged
             : options_.weights.empty()    ? judged_samples(scene, samples_judged)
                                           : judged_samples(scene, options_.weights, samples_judged);
   const ReferenceOptions judge{.seed = options_.seed,
-                               .patch_radius = patch_over_edge * sim::mean_edge_length(scene.mesh, options_.stop),
+                               .patch_radius = patch_over_edge * edge_,
                                .front_facing = options_.front_facing,
                                .threads = options_.threads,
                                .stop = options_.stop};
@@ -266,12 +212,87 @@ std::uint64_t PilotMaker::first_paths() const {
   return options_.paths > 0 ? options_.paths : of_all / judged_.samples.size();
 }
 
+std::vector<double> PilotMaker::radii() const {
+  if (!options_.radii.empty()) return options_.radii;
+  std::vector<double> radii;
+  for (const double share : radii_over_distance) radii.push_back(share * edge_);
+  return radii;
+}
+
+std::vector<EstimatorPilot> PilotMaker::settings_of(double rays_of_run) const {
+  std::vector<EstimatorPilot> all;
+  for (const sim::EstimatorRecord& record : sim::estimators) {
+    const sim::Estimator estimator = record.estimator;
+    if (!options_.estimators.empty() && std::ranges::find(options_.estimators, estimator) == options_.estimators.end())
+      continue;
+    EstimatorPilot& pilot = all.emplace_back(EstimatorPilot{.estimator = estimator, .settings = {}});
+    const auto add = [&](const AccuracySetting& setting, double scale) {
+      SettingPilot one;
+      one.setting = setting;
+      one.scale = scale;
+      pilot.settings.push_back(one);
+    };
+    if (uses_radius(estimator))
+      for (const double radius : radii()) add({estimator, radius}, radius);
+    else if (estimator == sim::Estimator::nearest)
+      for (const int k : nearest_of_run) add({.estimator = estimator, .nearest = k}, k / rays_of_run);
+    else
+      add({.estimator = estimator}, 1);
+  }
+  return all;
+}
+
+GrowingSeconds PilotMaker::seconds_of(const SettingPilot& setting, double judged_hits_per_ray) const {
+  const auto samples = static_cast<double>(scene_.samples.size());
+  const double share = samples / static_cast<double>(judged_.samples.size());
+  return costs_.estimate(setting.setting.estimator, samples,
+                         {share * judged_hits_per_ray, setting.setting.radius / edge_, setting.scale});
+}
+
+double PilotMaker::predicted_seconds(double rays, std::uint64_t paths, const AccuracyPilot* before) const {
+  constexpr double usual_photons_per_ray = 0.5;
+  const auto samples = static_cast<double>(judged_.samples.size());
+  const double share = samples / static_cast<double>(scene_.samples.size());
+  const double photons_per_ray = before != nullptr ? before->photons_per_ray : usual_photons_per_ray;
+  const double of_run = std::max(rays / runs, 1.0);
+  double seconds = costs_.trace().per_ray * rays;
+  const std::vector<EstimatorPilot> first = before != nullptr ? std::vector<EstimatorPilot>() : settings_of(of_run);
+  for (const EstimatorPilot& one : before != nullptr ? before->estimators : first) {
+    if (one.estimator == sim::Estimator::gather) continue;
+    for (const SettingPilot& setting : one.settings) {
+      if (setting.settled) continue;
+      const GrowingSeconds all = before != nullptr ? setting.seconds : seconds_of(setting, 0);
+      // fixed seconds, hits and neighbours are in proportion to the samples; other work for each ray is not
+      const double of_surfaces = costs_.surfaces(one.estimator);
+      const double none = costs_.estimate(one.estimator, 1, {}).per_ray;
+      const double of_ray = none + std::max(0.0, all.per_ray - none) * share;
+      const double times = one.estimator == sim::Estimator::area_corrected ? 1 : runs;  // areas are measured once
+      seconds += times * (all.fixed - of_surfaces) * share + runs * of_ray * of_run;
+    }
+  }
+  const double more = static_cast<double>(paths) / static_cast<double>(first_paths());
+  const double added = static_cast<double>(paths - (before != nullptr ? before->judge.paths : 0));
+  seconds += samples * added * costs_.path(1 / photons_per_ray);
+  constexpr double pieces_followed = 3;  // of a photon for missed light: to the first surface, and some to the samples
+  if (judge_->misses_light())
+    seconds += more * first_photons_of_a_batch * batches_of_missed_light * pieces_followed * costs_.trace().per_ray;
+  return seconds;
+}
+
+double PilotMaker::first_rays() const {
+  if (options_.rays > 0) return options_.rays;
+  constexpr double fewest = 4000;
+  double rays = usual_pilot_rays;
+  while (rays > fewest && predicted_seconds(rays, first_paths(), nullptr) > options_.least_price) rays /= 1.25;
+  return rays;
+}
+
 AccuracyPilot PilotMaker::make(double rays, std::uint64_t paths, const AccuracyPilot* before) {
   const sim::DefaultFloatingPoint mode;
   const sim::Stopwatch watch;
   Runs all(*this, rays, before);
   if (options_.progress) options_.progress({"pilot: backward paths", 0, 1});
-  judge_->add_paths(paths);
+  judge_->add_paths(paths);  // in all
   const double more = static_cast<double>(paths) / static_cast<double>(first_paths());
   judge_->add_photons(static_cast<std::uint64_t>(more * first_photons_of_a_batch), batches_of_missed_light);
   const Reference& by_paths = judge_->reference();
@@ -282,7 +303,7 @@ AccuracyPilot PilotMaker::make(double rays, std::uint64_t paths, const AccuracyP
 
 AccuracyPilot make_accuracy_pilot(sim::Scene& scene, const AccuracyPilotOptions& options) {
   PilotMaker maker(scene, options);
-  return maker.make(options.rays > 0 ? options.rays : usual_pilot_rays, maker.first_paths());
+  return maker.make(maker.first_rays(), maker.first_paths());
 }
 
 }  // namespace detp::validate

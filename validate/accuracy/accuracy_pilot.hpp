@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "accuracy_costs.hpp"
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/photons/light_ledger.hpp"
 #include "detp/sim/ranks/ranks.hpp"
@@ -25,20 +26,19 @@ struct SettingPilot {
   Estimate noise_squared_times_rays;  ///< noise² falls with the number of rays as 1/rays
   Estimate bias_squared;              ///< does not; may be below 0
   Estimate mean_bias;                 ///< signed, relative to the mean irradiance
-  double seconds = 0;                 ///< of an estimate at all samples with the rays of one run of the pilot
-  bool settled = false;               ///< known well enough: a further pilot leaves it as it is
+  double rare_photons = 1e9;    ///< so many photons, if all brought the same, would bring the noise² of the pilot
+  GrowingSeconds seconds = {};  ///< of an estimate at all samples, without tracing
+  bool settled = false;         ///< known well enough: a further pilot leaves it as it is
 };
+
+/// From so many rare photons on, the interval of noise holds; before it is weak.
+inline constexpr double enough_rare_photons = 30;
 
 struct EstimatorPilot {
   sim::Estimator estimator = sim::Estimator::disc;
   std::vector<SettingPilot> settings;  ///< of rising scale
-  /// Of an estimate at all samples, besides tracing: the share of a setting's time that does not grow with the rays, and the rays of
-  /// the setting's time.
-  double fixed_share = 0;
-  double rays_of_run = 1;
-  std::size_t runs = 2;        ///< of each setting
-  double by_reference = 0;     ///< share of the judge in the variance of the settings' bias²
-  double surface_seconds = 0;  ///< for building what the estimator needs of the mesh
+  std::size_t runs = 2;                ///< of each setting
+  double by_reference = 0;             ///< share of the judge in the variance of the settings' bias²
 
   /// noise² with so many rays, bias², and the mean bias; interpolated between the settings, linearly in logarithms (bias² that is not known to
   /// be above 0: linearly in the logarithm of the scale). Scales outside of the settings are those of the nearest one.
@@ -48,16 +48,9 @@ struct EstimatorPilot {
   [[nodiscard]] double noise_squared_error(double scale) const;
   [[nodiscard]] Estimate bias_squared(double scale) const;
   [[nodiscard]] Estimate mean_bias(double scale) const;
-  /// Of an estimate with so many rays, at all samples, without tracing: seconds_fixed + rays · seconds_per_ray.
-  [[nodiscard]] double fixed_seconds(double scale) const {
-    return surface_seconds + fixed_share * seconds_of_run(scale);
-  }
-  [[nodiscard]] double seconds_per_ray(double scale) const {
-    return (1 - fixed_share) * seconds_of_run(scale) / rays_of_run;
-  }
-
- private:
-  [[nodiscard]] double seconds_of_run(double scale) const;
+  [[nodiscard]] double rare_photons(double scale) const;
+  /// Of an estimate at all samples, without tracing.
+  [[nodiscard]] GrowingSeconds seconds(double scale) const;
 };
 
 /// By what bias was judged.
@@ -73,8 +66,7 @@ struct PilotJudge {
 
 struct AccuracyPilot {
   std::vector<EstimatorPilot> estimators;
-  double trace_fixed_seconds = 0;
-  double trace_seconds_per_ray = 0;
+  GrowingSeconds trace = {};  ///< photon paths
   double photons_per_ray = 0;
   double mean_square = 0;      ///< B²
   double sample_distance = 0;  ///< mean edge of the mesh, scene units
@@ -82,24 +74,20 @@ struct AccuracyPilot {
   double rays = 0;              ///< of all runs together
   double seconds = 0;           ///< that the pilot took
   sim::LightLedger light = {};  ///< of its photons
-
-  [[nodiscard]] double trace_seconds(double rays_of_run) const {
-    return trace_fixed_seconds + trace_seconds_per_ray * rays_of_run;
-  }
 };
 
 inline constexpr double usual_pilot_rays = 40'000;
 
 struct AccuracyPilotOptions {
   std::vector<sim::Estimator> estimators;  ///< empty: all
-  double rays = 0;                         ///< of all runs of the pilot together; 0: usual_pilot_rays
+  double rays = 0;                         ///< of all runs of the pilot together; 0: PilotMaker::first_rays
   std::uint64_t paths = 0;         ///< of the judge, for each sample, on each side; 0: 64000 for all samples together
   std::vector<double> radii = {};  ///< of discs, rising; empty: from a quarter to twice the mean edge
   std::span<const double> relative = {};  ///< radii of the scene's samples over those; none: 1
   std::span<const double> weights = {};   ///< of the scene's samples, with sum 1; none: by area
   const Reference* reference = nullptr;   ///< the judge, if it was made before; it must outlive the pilot
-  double price = 2;          ///< pilots may together take so many times as long as the answer that they find
-  double least_price = 1.5;  ///< seconds that they may always take
+  double price = 0.3;        ///< pilots may together take so many times as long as the answer that they find
+  double least_price = 0.5;  ///< seconds that they may always take
   bool front_facing = false;
   std::uint64_t seed = 1;
   int threads = 0;
@@ -127,14 +115,27 @@ class PilotMaker {
   [[nodiscard]] AccuracyPilot make(double rays, std::uint64_t paths, const AccuracyPilot* before = nullptr);
   /// Paths of each sample for a first pilot.
   [[nodiscard]] std::uint64_t first_paths() const;
+  /// Rays of a first pilot: usual_pilot_rays, or fewer if these would take longer than options.least_price.
+  [[nodiscard]] double first_rays() const;
+  /// Seconds of a pilot with so many rays and paths in all, after `before`, by AccuracyCosts. What the answer needs, too, is not counted:
+  /// building what traces rays, and what estimators need of the mesh.
+  [[nodiscard]] double predicted_seconds(double rays, std::uint64_t paths, const AccuracyPilot* before) const;
 
  private:
   class Runs;
+  [[nodiscard]] std::vector<double> radii() const;
+  /// The estimators in question with their settings, of runs of so many rays.
+  [[nodiscard]] std::vector<EstimatorPilot> settings_of(double rays_of_run) const;
+  /// Of a setting at all samples; `judged_hits_per_ray`: at those that are judged.
+  [[nodiscard]] GrowingSeconds seconds_of(const SettingPilot& setting, double judged_hits_per_ray) const;
+
   sim::Scene& scene_;
   AccuracyPilotOptions options_;
   ReplicateMaker maker_;
   std::optional<ReferenceMaker> judge_;
   JudgedSamples judged_;
+  AccuracyCosts costs_;
+  double edge_;  ///< mean, of the mesh
 };
 
 /// One pilot, with the options' rays and paths.

@@ -61,10 +61,12 @@ class Ways {
     point.total = root(square);
     point.total_low = root(square - down);
     point.total_high = root(square + up);
-    point.trace_seconds = gathers() ? 0 : pilot_.trace_seconds(rays);
-    point.seconds = point.trace_seconds + own_.fixed_seconds(scale) + own_.seconds_per_ray(scale) * rays;
+    point.noise_weak = own_.rare_photons(scale) < enough_rare_photons;
+    point.trace_seconds = gathers() ? 0 : pilot_.trace.at(rays);
+    const GrowingSeconds seconds = seconds_of(scale);
+    point.seconds = seconds.at(rays);
     // The noise's share of total² is that of d ln total / d ln rays = -1/2 noise²/total².
-    const double seconds_slope = per_ray(scale) * rays / point.seconds;
+    const double seconds_slope = (seconds.per_ray + 2 * seconds.per_ray_squared * rays) * rays / point.seconds;
     const auto slope = [&](double noise, double total) {
       return -0.5 * std::min(1.0, square_of(noise / total)) / seconds_slope;
     };
@@ -88,7 +90,7 @@ class Ways {
   }
 
   [[nodiscard]] AccuracyPoint best_in(double seconds) const {
-    return *most_accurate([&](double scale) { return rays_in(scale, seconds); });
+    return *most_accurate([&](double scale) { return seconds_of(scale).rays_in(seconds); });
   }
 
   [[nodiscard]] double least_bias() const { return root(own_.bias_squared(least_biased()).mean); }
@@ -108,14 +110,9 @@ class Ways {
 
   [[nodiscard]] bool gathers() const { return own_.estimator == sim::Estimator::gather; }
 
-  [[nodiscard]] double per_ray(double scale) const {
-    return (gathers() ? 0 : pilot_.trace_seconds_per_ray) + own_.seconds_per_ray(scale);
-  }
-
-  /// Rays that the time allows.
-  [[nodiscard]] double rays_in(double scale, double seconds) const {
-    const double fixed = (gathers() ? 0 : pilot_.trace_fixed_seconds) + own_.fixed_seconds(scale);
-    return std::max(1.0, (seconds - fixed) / per_ray(scale));
+  /// Tracing included.
+  [[nodiscard]] GrowingSeconds seconds_of(double scale) const {
+    return gathers() ? own_.seconds(scale) : pilot_.trace + own_.seconds(scale);
   }
 
   [[nodiscard]] std::optional<AccuracyPoint> reach_noise(double noise) const {
@@ -173,6 +170,47 @@ std::optional<double> missed_too_much(const EstimatorPilot& own, const AccuracyT
   return bound > tolerated * target.value ? std::optional(bound) : std::nullopt;
 }
 
+/// Predicted seconds tell ways apart from here on.
+constexpr double clearly_slower = 1.3;
+
+bool is_tied(const AccuracyPoint& a, const AccuracyPoint& b) {
+  return a.seconds < clearly_slower * b.seconds && b.seconds < clearly_slower * a.seconds;
+}
+
+bool reaches_with(const AccuracyPoint& point, const AccuracyTarget& target) {
+  constexpr double rounding = 1.001;
+  return (target.kind == AccuracyTarget::Kind::noise ? point.noise : point.total) <= rounding * target.value;
+}
+
+/// Of ways about as fast as the first one, that with the least total error comes first.
+template <class Worse>
+void take_the_best_of_ties(std::vector<AccuracyPoint>& ways, const Worse& worse) {
+  auto best = ways.begin();
+  for (auto way = ways.begin(); way != ways.end(); ++way)
+    if (is_tied(*way, ways.front()) && worse(*way) == worse(ways.front()) &&
+        std::pair(way->total, way->total_high) < std::pair(best->total, best->total_high))
+      best = way;
+  std::rotate(ways.begin(), best, best + 1);
+}
+
+/// In place of the answer: what has clearly less total error in its time, and no more noise than asked for.
+void take_what_is_better(AccuracyPlan& plan, const AccuracyPilot& pilot,
+                         const std::vector<const EstimatorPilot*>& allowed, double most_rays) {
+  constexpr double clearly = 0.98;
+  std::optional<AccuracyPoint> better;
+  for (const EstimatorPilot* own : allowed) {
+    const AccuracyPoint point = Ways(pilot, *own, most_rays).best_in(plan.answer.seconds);
+    const double least = clearly * (better ? better->total : plan.answer.total);
+    if (point.estimator != plan.answer.estimator && reaches_with(point, plan.target) && point.total < least)
+      better = point;
+  }
+  if (!better) return;
+  const auto same = std::ranges::find(plan.rivals, better->estimator, &AccuracyPoint::estimator);
+  if (same != plan.rivals.end()) plan.rivals.erase(same);
+  plan.rivals.insert(plan.rivals.begin(), plan.answer);
+  plan.answer = *better;
+}
+
 void mark_frontier(std::vector<AccuracyPoint>& points) {
   for (AccuracyPoint& one : points)
     one.on_frontier = std::ranges::none_of(points, [&](const AccuracyPoint& other) {
@@ -225,10 +263,15 @@ AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& tar
   });
   std::ranges::sort(nearest, {}, &AccuracyPoint::total);
   plan.reached = !reached.empty();
+  if (plan.reached && target.kind != AccuracyTarget::Kind::seconds) take_the_best_of_ties(reached, worse);
   std::vector<AccuracyPoint>& best = plan.reached ? reached : nearest;
   plan.answer = best.front();
   plan.rivals.assign(best.begin() + 1, best.end());
   if (plan.reached) plan.rivals.insert(plan.rivals.end(), nearest.begin(), nearest.end());
+  if (plan.reached && target.kind == AccuracyTarget::Kind::noise) take_what_is_better(plan, pilot, allowed, most_rays);
+  for (const AccuracyPoint& rival : plan.rivals)
+    if (plan.reached && is_tied(rival, plan.answer) && !worse(rival) && reaches_with(rival, target))
+      plan.ties.push_back(rival.estimator);
   for (const EstimatorPilot* own : allowed) {
     const Ways ways(pilot, *own, most_rays);
     for (int step = -3; step <= 3; ++step) {
@@ -242,20 +285,6 @@ AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& tar
   return plan;
 }
 
-double predicted_seconds(const AccuracyPilot& pilot, std::size_t triangles) {
-  // of tracing a piece of a path to its surface, and of a piece in an estimate
-  const double of_piece = 2e-7 * (1 + 0.1 * std::log2(static_cast<double>(triangles) + 1));
-  constexpr double of_estimate = 3.5e-7;
-  constexpr double longer = 1.5;  // a pilot traces half as many pieces again, to find the seconds
-  double settings = 0;
-  for (const EstimatorPilot& one : pilot.estimators)
-    settings += static_cast<double>(std::ranges::count(one.settings, false, &SettingPilot::settled));
-  const double by_rays = pilot.rays * (longer * of_piece + settings * of_estimate);
-  const double pieces_of_path = 4 / std::max(0.01, pilot.photons_per_ray);  // each looks for a light, from both sides
-  const auto paths = static_cast<double>(pilot.judge.paths * pilot.judge.samples);
-  return by_rays + paths * pieces_of_path * of_piece;
-}
-
 namespace {
 
 /// Whether an estimator is out of the question: far from the target, or from the fastest.
@@ -264,6 +293,21 @@ bool is_out(const AccuracyPoint& way, const AccuracyPlan& plan) {
   if (plan.target.kind == AccuracyTarget::Kind::seconds) return way.total_low > plan.answer.total_high;
   if (plan.reached && way.seconds > far * plan.answer.seconds) return true;
   return way.bias_low > plan.target.value && way.bias > plan.answer.bias;
+}
+
+/// Of the interval of the bias.
+double half_width(const AccuracyPoint& point) { return 0.5 * (point.bias_high - point.bias_low); }
+
+/// The answer, or the rival that is faster by the prediction, left out by a bias that may yet be below the target, and least known.
+const AccuracyPoint& least_known(const AccuracyPlan& plan, double wanted) {
+  const AccuracyPoint* least = &plan.answer;
+  if (plan.target.kind == AccuracyTarget::Kind::seconds) return *least;
+  for (const AccuracyPoint& rival : plan.rivals) {
+    const bool may_be_better = rival.bias > plan.target.value && rival.bias_low < plan.target.value &&
+                               rival.seconds * clearly_slower < plan.answer.seconds;
+    if (may_be_better && half_width(rival) > std::max(wanted, half_width(*least))) least = &rival;
+  }
+  return *least;
 }
 
 /// Settles all settings of estimators that are out, and of the others those that are not beside the setting in question.
@@ -287,14 +331,17 @@ PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, Accur
                           double most_rays) {
   constexpr double enough = 0.2;           // of the target, for half the width of the bias's interval
   constexpr double deciding_share = 0.25;  // of the variance of bias²
+  constexpr double known_noise = 0.1;      // relative standard error of noise²
   constexpr double most_pilot_rays = 4e7;
   check(target, most_rays);
-  double rays = options.rays > 0 ? options.rays : usual_pilot_rays;
   PilotedPlan found;
-  double seconds = 0;  // of all pilots
+  double seconds = 0;    // of all pilots, measured
+  double predicted = 0;  // of all pilots
   PilotMaker maker(scene, options);
+  double rays = maker.first_rays();
   std::uint64_t paths = maker.first_paths();
   for (bool first = true;; first = false) {
+    predicted += maker.predicted_seconds(rays, paths, first ? nullptr : &found.pilot);
     try {
       found.pilot = maker.make(rays, paths, first ? nullptr : &found.pilot);
     } catch (const sim::Stopped&) {
@@ -307,18 +354,33 @@ PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, Accur
     found.plan = plan_accuracy(found.pilot, target, most_rays);
     const AccuracyPoint& best = found.plan.answer;
     const double wanted = enough * (target.kind == AccuracyTarget::Kind::seconds ? best.total : target.value);
-    if (0.5 * (best.bias_high - best.bias_low) <= wanted || rays > most_pilot_rays) return found;
-    const auto own = std::ranges::find(found.pilot.estimators, best.estimator, &EstimatorPilot::estimator);
-    const bool by_paths = own->by_reference > deciding_share && options.reference == nullptr;
-    const bool by_rays = own->by_reference < 1 - deciding_share;
+    const AccuracyPoint& open = least_known(found.plan, wanted);
+    const auto estimator_of = [&](const AccuracyPoint& point) {
+      return *std::ranges::find(found.pilot.estimators, point.estimator, &EstimatorPilot::estimator);
+    };
+    const EstimatorPilot own = estimator_of(best);
+    const double noise_error = own.noise_squared_error(best.radius > 0 ? best.radius : own.settings.front().scale) /
+                               std::sqrt(static_cast<double>(own.runs) + 1);
+    const bool is_noise_known = !best.noise_weak && noise_error <= known_noise;
+    const bool is_bias_known = half_width(open) <= wanted;
+    if ((is_bias_known && is_noise_known) || rays > most_pilot_rays) return found;
+    const double by_reference = estimator_of(open).by_reference;
+    const bool by_paths = !is_bias_known && by_reference > deciding_share && options.reference == nullptr;
+    const bool by_rays = !is_noise_known || by_reference < 1 - deciding_share;
+    if (!by_rays && !by_paths) return found;
     settle(found.pilot, found.plan);
-    AccuracyPilot next = found.pilot;
-    next.rays *= by_rays ? 4 : 1;
-    next.judge.paths = paths * (by_paths ? 4 : 1);
     const double price = std::max(options.least_price, options.price * best.seconds);
-    if ((!by_rays && !by_paths) || predicted_seconds(next, scene.mesh.triangles.size()) > price) return found;
-    rays = next.rays;
-    paths = next.judge.paths;
+    double next_rays = 0;
+    std::uint64_t next_paths = 0;
+    double more = 4;
+    for (;; more /= std::sqrt(2)) {  // as much as the price allows
+      if (more < 1.4) return found;
+      next_rays = by_rays ? more * rays : rays;
+      next_paths = by_paths ? static_cast<std::uint64_t>(more * static_cast<double>(paths)) : paths;
+      if (predicted + maker.predicted_seconds(next_rays, next_paths, &found.pilot) <= price) break;
+    }
+    rays = next_rays;
+    paths = next_paths;
   }
 }
 

@@ -25,6 +25,7 @@ struct AccuracyPoint {
   double noise = 0;
   double noise_low = 0;  ///< of one run: its error without the bias, over the samples, lies within with 95 %
   double noise_high = 0;
+  bool noise_weak = false;  ///< too few photons bring most of it (enough_rare_photons): its interval may not hold
   double bias = 0;
   double bias_low = 0;  ///< its interval of 95 %; 0: it may have none
   double bias_high = 0;
@@ -52,6 +53,7 @@ struct AccuracyPlan {
   double floor = 0;                   ///< least bias of any estimator
   std::vector<AccuracyPoint> points;  ///< for each estimator from few to many rays, each with its best setting
   std::vector<AccuracyPoint> rivals;  ///< the best way of each other estimator, the fastest first
+  std::vector<sim::Estimator> ties;   ///< of them that predicted seconds do not tell from the answer
   /// If gather is left out: the bound (95 %) of the light that it misses, relative to B, which is above a tenth of the target.
   std::optional<double> gather_misses = {};
 };
@@ -63,7 +65,7 @@ void check(const AccuracyTarget& target, double most_rays);
 /// light that it misses may be above a tenth of the target.
 ///
 /// target noise: of each estimator the largest setting whose bias is below the noise (if there is none, that of the least bias); among
-/// those the fastest. target total: the fastest setting with noise² + bias² = target². target seconds: the setting with the least
+/// those the fastest, but none that another estimator beats in noise, total error and seconds. Of ways whose predicted seconds differ by less than 1.3 times, the one with the least total error. target total: the fastest setting with noise² + bias² = target². target seconds: the setting with the least
 /// total error in that time. At most `most_rays` rays. Throws std::invalid_argument for a target or a number of rays out of range.
 [[nodiscard]] AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& target,
                                          double most_rays = 1e9);
@@ -75,15 +77,11 @@ struct PilotedPlan {
 };
 
 /// The same with pilots in the scene, until the half width of the bias's interval is at most a fifth of the target (of a time: of the total
-/// error). The next pilot has four times the rays, or backward paths, or both, as one or both decide the width. No pilot is made that
-/// would exceed the price: options.price times the answer's seconds, at least options.least_price, by their predicted work
-/// (predicted_seconds). options.rays and paths are those of the first pilot. Throws as make_accuracy_pilot; sim::Stopped if there was no
+/// error), and noise² is known to 10 %. The next pilot has up to four times the rays, or backward paths, or both, as one or both decide. No pilot is
+/// made if all together would exceed the price: options.price times the answer's seconds, at least options.least_price, both as predicted. So the plan
+/// does not depend on the clock. options.rays and paths are those of the first pilot. Throws as make_accuracy_pilot; sim::Stopped if there was no
 /// pilot yet.
 [[nodiscard]] PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, AccuracyPilotOptions options,
                                         double most_rays = 1e9);
-
-/// Seconds of a pilot, by its counts alone: the same on a busy machine. Rough: set by pilots of @cornell on two virtual cores of an AMD EPYC,
-/// Zen 3.
-[[nodiscard]] double predicted_seconds(const AccuracyPilot& pilot, std::size_t triangles);
 
 }  // namespace detp::validate

@@ -46,6 +46,22 @@ OfSample of_sample(std::span<const std::vector<double>> runs, double reference, 
   return {mean - reference, squares / (count - 1)};
 }
 
+/// (Σ c)²/Σ c² of all squares c that the noise of the runs adds up.
+double equal_terms(std::span<const std::vector<double>> runs, std::span<const double> weights, double equal) {
+  double sum = 0;
+  double squares = 0;
+  for (std::size_t i = 0; i < runs.front().size(); ++i) {
+    double mean = 0;
+    for (const std::vector<double>& run : runs) mean += run[i] / static_cast<double>(runs.size());
+    for (const std::vector<double>& run : runs) {
+      const double square = (weights.empty() ? equal : weights[i]) * (run[i] - mean) * (run[i] - mean);
+      sum += square;
+      squares += square * square;
+    }
+  }
+  return squares > 0 ? sum * sum / squares : 0;
+}
+
 struct Sums {
   double noise = 0;
   double bias = 0;
@@ -184,6 +200,7 @@ ErrorSplit split_error(std::span<const std::vector<double>> runs, const Referenc
   split.noise_squared = relative([](const Sums& one) { return one.noise; }, variances.noise_by_subset);
   split.bias_squared = relative([](const Sums& one) { return one.bias; }, of_bias);
   split.total_squared = relative([](const Sums& one) { return one.total(); }, of_bias + variances.noise_by_subset);
+  split.noise_terms = equal_terms(runs, reference.weights, 1 / static_cast<double>(splitter.size()));
   split.by_reference = variances.bias_by_reference / (mean_square * mean_square);
   if (mean > 0)
     split.mean_bias = {all.mean_bias / mean,

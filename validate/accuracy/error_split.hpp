@@ -25,6 +25,7 @@ struct ErrorSplit {
   Estimate total_squared;    ///< expected square error of one run: the sum
   Estimate mean_bias;        ///< signed, relative to the mean irradiance: light that is gained or lost
   double by_reference = 0;   ///< variance of bias_squared that comes from the reference
+  double noise_terms = 0;    ///< so many equal squares of one run at one sample would add up to the noise
   double share_within = 0;   ///< of the samples with light: error of one run below `within` B
   double error_95 = 0;       ///< 95 % of them have an error of one run below this, over B
   double worst = 0;          ///< largest error of one run, over B

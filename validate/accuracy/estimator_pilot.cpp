@@ -26,9 +26,19 @@ Between between(const std::vector<SettingPilot>& settings, double scale) {
 
 }  // namespace
 
-double EstimatorPilot::seconds_of_run(double scale) const {
+GrowingSeconds EstimatorPilot::seconds(double scale) const {
   const auto [low, high, share] = between(settings, scale);
-  return std::exp((1 - share) * std::log(std::max(low.seconds, 1e-9)) + share * std::log(std::max(high.seconds, 1e-9)));
+  const auto mixed = [share = share](double a, double b) {
+    return a > 0 && b > 0 ? std::exp((1 - share) * std::log(a) + share * std::log(b)) : (1 - share) * a + share * b;
+  };
+  const GrowingSeconds& a = low.seconds;
+  const GrowingSeconds& b = high.seconds;
+  return {mixed(a.fixed, b.fixed), mixed(a.per_ray, b.per_ray), mixed(a.per_ray_squared, b.per_ray_squared)};
+}
+
+double EstimatorPilot::rare_photons(double scale) const {
+  const auto [low, high, share] = between(settings, scale);
+  return std::exp((1 - share) * std::log(low.rare_photons) + share * std::log(high.rare_photons));
 }
 
 double EstimatorPilot::noise_squared(double scale, double rays) const {
@@ -41,8 +51,10 @@ double EstimatorPilot::noise_squared(double scale, double rays) const {
 
 double EstimatorPilot::noise_squared_error(double scale) const {
   const auto [low, high, share] = between(settings, scale);
+  // the spread of a few runs does not show what rare photons may bring
   const auto relative = [](const SettingPilot& one) {
-    return one.noise_squared_times_rays.standard_error / std::max(one.noise_squared_times_rays.mean, 1e-300);
+    return std::max(one.noise_squared_times_rays.standard_error / std::max(one.noise_squared_times_rays.mean, 1e-300),
+                    std::sqrt(1 / one.rare_photons));
   };
   return std::sqrt(static_cast<double>(runs) + 1) * ((1 - share) * relative(low) + share * relative(high));
 }

@@ -93,7 +93,6 @@ void ReferenceMaker::add_paths(std::uint64_t paths) {
   });
   if (options_.stop.stop_requested() && std::ranges::any_of(sums_, [](const auto& one) { return one.paths < 2; }))
     throw sim::Stopped("stopped before the reference had a value for each sample");
-  path_seconds_ += watch.seconds();
   reference_.seconds += watch.seconds();
 }
 
@@ -142,7 +141,6 @@ const Reference& ReferenceMaker::reference() {
   reference_.paths = sums_.front().paths;
   const std::vector<double>& weights = reference_.judged.weights;
   double of_path = 0;
-  double paths = 0;
   double missed_square = 0;
   double missed_variance = 0;
   double missed = 0;
@@ -153,7 +151,6 @@ const Reference& ReferenceMaker::reference() {
     reference_.irradiance[i] = sums_[i].irradiance() + by_photons.mean;
     reference_.variance[i] = sums_[i].variance() + variance;
     reference_.paths = std::min(reference_.paths, sums_[i].paths);
-    paths += static_cast<double>(sums_[i].paths);
     of_path += weights[i] * sums_[i].variance() * static_cast<double>(sums_[i].paths);
     const double square = squared(by_photons.mean) - variance;
     missed_square += weights[i] * square;
@@ -169,7 +166,6 @@ const Reference& ReferenceMaker::reference() {
     reference_.path_noise_squared = of_path / square;
   }
   if (mean > 0) reference_.missed_mean = missed / mean;
-  reference_.seconds_of_path = path_seconds_ / paths;
   return reference_;
 }
 

@@ -39,7 +39,6 @@ struct Reference {
   Estimate missed_squared = {};   ///< mean square of the light that backward paths miss, relative to B²
   double missed_mean = 0;         ///< mean of it, relative to the mean irradiance
   double path_noise_squared = 0;  ///< noise² of one backward path for each sample, on each side, relative to B²
-  double seconds_of_path = 0;     ///< of one sample, on each side
 
   [[nodiscard]] ReferenceValues values() const {
     const auto samples = static_cast<double>(judged.samples.size());
@@ -97,7 +96,6 @@ class ReferenceMaker {
   std::uint64_t batches_made_ = 0;
   std::unique_ptr<const sim::Index> surfaces_;
   double missed_bound_ = 0;  ///< of missed_share: one-sided, of all light
-  double path_seconds_ = 0;
   Reference reference_;
 };
 

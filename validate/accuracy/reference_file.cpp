@@ -147,7 +147,6 @@ void write_reference(const std::string& path, const Reference& reference, const 
             {"missed_squared", {reference.missed_squared.mean, reference.missed_squared.standard_error}},
             {"missed_mean", reference.missed_mean},
             {"path_noise_squared", reference.path_noise_squared},
-            {"seconds_of_path", reference.seconds_of_path},
             {"error", reference.error()},
             {"seconds", reference.seconds},
             {"columns", {"x", "y", "z", "nx", "ny", "nz", "irradiance", "variance", "weight", "place"}}};
@@ -183,7 +182,6 @@ Reference read_reference(const std::string& path, const ReferenceKey& key) {
                                 finite(json.at("missed_squared").at(1), "an error")};
     reference.missed_mean = finite(json.at("missed_mean"), "missed light");
     reference.path_noise_squared = finite(json.at("path_noise_squared"), "a noise");
-    reference.seconds_of_path = finite(json.at("seconds_of_path"), "a number of seconds");
     reference.seconds = finite(json.at("seconds"), "a number of seconds");
     for (const Json& numbers : json.at("samples")) add_sample(numbers, reference);
     const std::size_t samples = std::min(key.samples, reference.judged.population);

@@ -29,11 +29,6 @@ ReplicateMaker::ReplicateMaker(sim::Scene& scene, bool front_facing, int threads
   caster_seconds_ = watch.seconds();
 }
 
-double ReplicateMaker::surface_seconds(sim::Estimator estimator) const {
-  if (estimator == sim::Estimator::area_corrected) return area_corrected_.seconds;
-  return estimator == sim::Estimator::triangle_hits ? triangle_hits_.seconds : 0;
-}
-
 bool ReplicateMaker::goes_on() {
   if (!goes_on_) {
     const sim::Finding shadow = sim::self_shadow(scene_, caster_, front_facing_, stop_);
@@ -79,14 +74,11 @@ std::vector<sim::PathSums> ReplicateMaker::gather(std::span<const sim::Sample> s
 
 const sim::Index& ReplicateMaker::surfaces(const sim::Problem& problem, sim::Estimator estimator) const {
   const bool area = estimator == sim::Estimator::area_corrected;
-  Surfaces& built = area ? area_corrected_ : triangle_hits_;
-  if (built.index == nullptr) {
-    const sim::Stopwatch watch;
-    built.index = area ? sim::prepare_area_corrected(problem, scene_.mesh, {.stop = stop_})
-                       : sim::prepare_triangle_hits(problem, scene_.mesh, {.stop = stop_});
-    built.seconds = watch.seconds();
-  }
-  return *built.index;
+  std::unique_ptr<const sim::Index>& built = area ? area_corrected_ : triangle_hits_;
+  if (built == nullptr)
+    built = area ? sim::prepare_area_corrected(problem, scene_.mesh, {.stop = stop_})
+                 : sim::prepare_triangle_hits(problem, scene_.mesh, {.stop = stop_});
+  return *built;
 }
 
 sim::PathRays first_photons(const sim::Paths& paths, std::uint64_t photons) {

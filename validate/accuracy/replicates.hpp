@@ -40,11 +40,9 @@ class ReplicateMaker {
   /// Decides whether paths go on beyond surfaces (trace), so that tracing does not take the time for it.
   void decide_overshoot() { static_cast<void>(goes_on()); }
 
-  /// Seconds that building took: of the mesh's ray caster, and of the surfaces of an estimator that needs the mesh (0 before its
-  /// first estimate).
+  /// Seconds that building the mesh's ray caster took.
   [[nodiscard]] double caster_seconds() const { return caster_seconds_; }
   [[nodiscard]] const std::shared_ptr<const sim::RayCaster>& caster() const { return caster_; }
-  [[nodiscard]] double surface_seconds(sim::Estimator estimator) const;
 
   /// At least so many pieces of paths. `radius` says how far they go on beyond the surfaces where they end, if the discs of this
   /// radius would shadow themselves otherwise (sim/effects/self_shadow.hpp); 0: not at all.
@@ -73,12 +71,8 @@ class ReplicateMaker {
   std::shared_ptr<const sim::RayCaster> caster_;
   double caster_seconds_ = 0;
   /// Built once, they depend on the mesh alone.
-  struct Surfaces {
-    std::unique_ptr<const sim::Index> index;
-    double seconds = 0;
-  };
-  mutable Surfaces area_corrected_;
-  mutable Surfaces triangle_hits_;
+  mutable std::unique_ptr<const sim::Index> area_corrected_;
+  mutable std::unique_ptr<const sim::Index> triangle_hits_;
   std::optional<bool> goes_on_;  ///< paths go on beyond surfaces
 };
 

@@ -17,17 +17,17 @@ constexpr double per_ray = 1e-6;
 
 /// Discs with noise² = 0.2/(r² rays) and bias² = c r, radii 0.01 … 0.08; tracing and searching take 1 µs each for a ray.
 AccuracyPilot made_pilot(double bias_per_radius, double bias_error = 0) {
-  EstimatorPilot discs{.estimator = sim::Estimator::disc, .settings = {}, .rays_of_run = 1000, .runs = 6};
+  EstimatorPilot discs{.estimator = sim::Estimator::disc, .settings = {}, .runs = 6};
   for (const double radius : {0.01, 0.02, 0.04, 0.08})
     discs.settings.push_back({.setting = {sim::Estimator::disc, radius},
                               .scale = radius,
                               .noise_squared_times_rays = {0.2 / (radius * radius), 0},
                               .bias_squared = {bias_per_radius * radius, bias_error},
                               .mean_bias = {},
-                              .seconds = 1000 * per_ray});
+                              .seconds = {0, per_ray}});
   AccuracyPilot pilot;
   pilot.estimators = {discs};
-  pilot.trace_seconds_per_ray = per_ray;
+  pilot.trace = {0, per_ray};
   pilot.photons_per_ray = 0.5;
   pilot.mean_square = 1;
   return pilot;
@@ -35,12 +35,9 @@ AccuracyPilot made_pilot(double bias_per_radius, double bias_error = 0) {
 
 /// The pilot as if each ray took the same time in each estimator, so that its plan does not depend on the machine.
 AccuracyPilot with_equal_seconds(AccuracyPilot pilot) {
-  for (EstimatorPilot& one : pilot.estimators) {
-    one.surface_seconds = 0;
-    for (SettingPilot& setting : one.settings) setting.seconds = one.rays_of_run * per_ray;
-  }
-  pilot.trace_fixed_seconds = 0;
-  pilot.trace_seconds_per_ray = per_ray;
+  for (EstimatorPilot& one : pilot.estimators)
+    for (SettingPilot& setting : one.settings) setting.seconds = {0, per_ray};
+  pilot.trace = {0, per_ray};
   return pilot;
 }
 
@@ -94,7 +91,7 @@ TEST_SUITE("plans of accuracy") {
 
   TEST_CASE("the slope is that of the total error between two times near by, and its interval contains it") {
     AccuracyPilot pilot = made_pilot(0.1, 1e-4);
-    pilot.trace_fixed_seconds = 0.01;
+    pilot.trace.fixed = 0.01;
     const auto in = [&](double seconds) {
       AccuracyPilot one_radius = pilot;
       one_radius.estimators[0].settings.resize(1);
@@ -117,7 +114,7 @@ TEST_SUITE("plans of accuracy") {
     slow.estimator = sim::Estimator::variable_radius;
     for (SettingPilot& setting : slow.settings) {
       setting.setting.estimator = slow.estimator;
-      setting.seconds *= 50;
+      setting.seconds.per_ray *= 50;
     }
     pilot.estimators.push_back(slow);
     const AccuracyPlan plan = plan_accuracy(pilot, {Kind::noise, 0.05});
@@ -134,6 +131,72 @@ TEST_SUITE("plans of accuracy") {
     for (EstimatorPilot& one : pilot.estimators)
       for (SettingPilot& setting : one.settings) setting.bias_squared.standard_error = 1;
     for (const AccuracyPoint& point : plan_accuracy(pilot, {Kind::noise, 0.05}).points) CHECK(point.on_frontier);
+  }
+
+  TEST_CASE("about as fast: the one with less total error is the answer, and the other is a tie") {
+    AccuracyPilot pilot = made_pilot(0);
+    for (SettingPilot& setting : pilot.estimators[0].settings) setting.bias_squared.mean = 1e-4;
+    EstimatorPilot other = pilot.estimators.front();
+    other.estimator = sim::Estimator::area_corrected;
+    for (SettingPilot& setting : other.settings) {
+      setting.setting.estimator = other.estimator;
+      setting.seconds.per_ray *= 1.05;
+      setting.bias_squared.mean *= 0.5;
+    }
+    pilot.estimators.push_back(other);
+    const AccuracyPlan plan = plan_accuracy(pilot, {Kind::noise, 0.04});
+    CHECK(plan.answer.estimator == sim::Estimator::area_corrected);
+    CHECK(plan.ties == std::vector{sim::Estimator::disc});
+    for (SettingPilot& setting : pilot.estimators[1].settings) setting.seconds.per_ray *= 2;
+    CHECK(plan_accuracy(pilot, {Kind::noise, 0.04}).answer.estimator == sim::Estimator::disc);
+    CHECK(plan_accuracy(pilot, {Kind::noise, 0.04}).ties.empty());
+  }
+
+  TEST_CASE("no rival has less noise, less error and fewer seconds than the answer") {
+    AccuracyPilot pilot = made_pilot(0.1);  // slow, with a bias below the noise
+    for (SettingPilot& setting : pilot.estimators[0].settings) setting.seconds.per_ray *= 1000;
+    EstimatorPilot biased = made_pilot(0).estimators.front();  // a bias just above it
+    biased.estimator = sim::Estimator::area_corrected;
+    for (SettingPilot& setting : biased.settings) {
+      setting.setting.estimator = biased.estimator;
+      setting.bias_squared.mean = std::pow(0.051, 2);
+    }
+    pilot.estimators.push_back(biased);
+    const AccuracyPlan plan = plan_accuracy(pilot, {Kind::noise, 0.05});
+    CHECK(plan.answer.estimator == sim::Estimator::area_corrected);
+    CHECK(plan.answer.noise <= 0.05);
+  }
+
+  TEST_CASE("a check with other noise counts by its rays, and the plan ranks again") {
+    const AccuracyPilot pilot = [] {
+      AccuracyPilot one = made_pilot(0.1);
+      one.rays = 1e5;
+      return one;
+    }();
+    const AccuracyPlan plan = plan_accuracy(pilot, {Kind::noise, 0.05});
+    const AccuracyCheck check{.noise = 0.1, .rays = 3e5};
+    AccuracyPoint of_check = plan.answer;
+    of_check.rays = 3e5;
+    of_check.noise = 0.05;
+    const AccuracyPlan again = plan_accuracy(with_check(pilot, of_check, check), {Kind::noise, 0.05});
+    CHECK(again.answer.rays == doctest::Approx((1 + 3 * 4) / 4.0 * plan.answer.rays).epsilon(1e-6));
+  }
+
+  TEST_CASE("what few photons bring is weak") {
+    AccuracyPilot pilot = made_pilot(0.1);
+    CHECK_FALSE(plan_accuracy(pilot, {Kind::noise, 0.05}).answer.noise_weak);
+    for (SettingPilot& setting : pilot.estimators[0].settings) setting.rare_photons = 10;
+    const AccuracyPoint weak = plan_accuracy(pilot, {Kind::noise, 0.05}).answer;
+    CHECK(weak.noise_weak);
+    CHECK(weak.noise_high > 1.5 * weak.noise);
+  }
+
+  TEST_CASE("seconds of neighbours grow with the square of the rays; the rays in a time are found again") {
+    const GrowingSeconds seconds{0.1, 1e-6, 1e-12};
+    CHECK(seconds.at(1e6) == doctest::Approx(2.1));
+    CHECK(seconds.rays_in(2.1) == doctest::Approx(1e6));
+    CHECK(seconds.rays_in(0.05) == 1);
+    CHECK(GrowingSeconds{0, 1e-6}.rays_in(2) == doctest::Approx(2e6));
   }
 
   TEST_CASE("@furnace: noise and time of the answer come true, and discs are found to lose light at edges") {

@@ -47,6 +47,7 @@ struct AccuracyOptions {
   std::optional<std::string> seeds;
   std::vector<std::string> axes;
   std::string effort = "default";
+  bool check = false;
   bool front_facing = false;
   std::optional<std::string> checkpoint;
   bool resume = false;
@@ -194,6 +195,7 @@ class KeptAccuracy {
                                      : target.kind == validate::AccuracyTarget::Kind::total ? "error"
                                                                                             : "seconds"},
                        {"effort", options.effort},
+                       {"check", options.check},
                        {"estimators", fmt::format("{}", fmt::join(options.estimators, ","))},
                        {"limit of rays", most_rays},
                        {"seeds of the runs", options.seeds.value_or("none")},
@@ -220,7 +222,7 @@ class KeptAccuracy {
 /// Fills in pilot, plan and check, or takes them from the checkpoint. Returns how far it came if a stop request ended it.
 std::optional<sim::Progress> find_answer(AccuracyAnswer& answer, sim::Scene& scene,
                                          const validate::AccuracyTarget& target, validate::AccuracyPilotOptions pilot,
-                                         double most_rays, KeptAccuracy& saved) {
+                                         double most_rays, bool check, KeptAccuracy& saved) {
   const sim::Stopwatch watch;
   SavedAccuracy& state = saved.state;
   bool stopped = false;
@@ -242,12 +244,9 @@ std::optional<sim::Progress> find_answer(AccuracyAnswer& answer, sim::Scene& sce
     answer.no_check = "Stopped before the check.";
     return sim::Progress{1, 3, "steps"};
   }
+  if (!check) return std::nullopt;
   if (too_large(answer.plan.answer)) {
     answer.no_check = "Not run: too large for the memory.";
-    return std::nullopt;
-  }
-  if (pilot.price == 0) {
-    answer.no_check = "Not run to check.";
     return std::nullopt;
   }
   if (answer.plan.answer.seconds > longest_check) {
@@ -267,7 +266,9 @@ std::optional<sim::Progress> find_answer(AccuracyAnswer& answer, sim::Scene& sce
       return sim::Progress{2, 3, "steps"};
     }
   answer.check = state.check;
-  answer.correction = validate::correct_answer(answer.plan, *answer.check);
+  answer.checked = answer.plan.answer;
+  answer.pilot = validate::with_check(answer.pilot, answer.plan.answer, *answer.check);
+  answer.plan = validate::plan_accuracy(answer.pilot, target, most_rays);
   answer.seconds = state.planning_seconds;
   return std::nullopt;
 }
@@ -293,8 +294,8 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
                                        .weights = question.weights,
                                        .price = options.effort == "quick" ? 0.0
                                                 : thorough                ? 20
-                                                                          : 2,
-                                       .least_price = thorough ? 20 : 1.5,
+                                                                          : 0.3,
+                                       .least_price = thorough ? 20 : 0.5,
                                        .front_facing = options.front_facing,
                                        .seed = common.seed,
                                        .threads = common.threads,
@@ -307,6 +308,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
                         .plan = {},
                         .reference = {},
                         .check = {},
+                        .checked = {},
                         .no_check = {},
                         .reruns = {},
                         .axes = {},
@@ -339,7 +341,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
   };
   for (const std::string& notice : scene.notices) say(notice, "");
   if (!question.notice.empty()) say(question.notice, "warning: ");
-  std::optional<sim::Progress> stopped = find_answer(answer, scene, target, pilot, most_rays, saved);
+  std::optional<sim::Progress> stopped = find_answer(answer, scene, target, pilot, most_rays, options.check, saved);
   for (const std::string& warning : sim::light_warnings(answer.pilot.light, scene.lights)) say(warning, "warning: ");
   pilot.seed += seeds_apart;
   const validate::AccuracyPoint& best = answer.plan.answer;
@@ -357,6 +359,8 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
       answer.axes = other_axes(options, scene, answer.pilot.sample_distance, pilot);
     } catch (const sim::Stopped&) {
       stopped = sim::Progress{2, 3, "steps"};
+    } catch (const std::exception& error) {  // the answer is complete without them
+      say(fmt::format("no other axes: {}", error.what()), "warning: ");
     }
   answer.in_time =
       validate::plan_accuracy(answer.pilot, {validate::AccuracyTarget::Kind::seconds, 2 * best.seconds}, most_rays)
@@ -372,6 +376,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
       {"reference", options.reference ? Json(*options.reference) : Json()},
       {"axes", options.axes.empty() ? std::vector<std::string>{"estimator"} : options.axes},
       {"effort", options.effort},
+      {"check", options.check},
       {"discs", options.discs ? Json(*options.discs) : Json()},
       {"disc_radius", question.radii.empty() ? Json() : Json(question.radii[1])},
       {"materials", options.faces.materials},
@@ -427,9 +432,10 @@ Command accuracy_command(CLI::App& program) {
       ->delimiter(',');
   app->add_option(
          "--effort", options->effort,
-         "quick: no run to check the answer; thorough: pilots of up to 20 s, or twenty times the answer, until "
-         "the bias is known to a fifth of the target; default: default")
+         "how long planning may take, until the bias is known to a fifth of the target: quick: 0.5 s; default: that or "
+         "0.3 times the answer; thorough: 20 s or twenty times the answer; default: default")
       ->check(CLI::IsMember({"quick", "default", "thorough"}));
+  app->add_flag("--check", options->check, "run the answer once; its noise is added to what is known; default: not");
   app->add_flag("--front-facing", options->front_facing, "light that arrives from behind does not count");
   app->add_option(
       "--checkpoint", options->checkpoint,

@@ -18,8 +18,8 @@ struct AccuracyAnswer {
   validate::AccuracyPlan plan;
   std::optional<validate::Reference> reference;  ///< that the user asked for
   std::optional<validate::AccuracyCheck> check;
-  double correction = 1;  ///< of the answer's rays, because the check had another noise
-  std::string no_check;   ///< why the answer was not run
+  validate::AccuracyPoint checked;  ///< what was run to check
+  std::string no_check;             ///< why the answer was not run
   std::vector<validate::AccuracyRerun> reruns;
   std::vector<validate::AxisPoint> axes;  ///< other than estimators
   validate::AccuracyPoint in_time;        ///< the best way in twice the answer's time

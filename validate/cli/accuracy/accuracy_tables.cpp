@@ -39,6 +39,7 @@ Json point_json(const AccuracyAnswer& answer, const AccuracyPoint& point) {
           {"command", command_of(answer, point)},
           {"noise", point.noise},
           {"noise_interval", {point.noise_low, point.noise_high}},
+          {"noise_weak", point.noise_weak},
           {"bias", point.bias},
           {"bias_interval", {point.bias_low, point.bias_high}},
           {"mean_bias", point.mean_bias},
@@ -111,7 +112,7 @@ Json to_json(const AccuracyAnswer& answer) {
     chosen["measured_seconds"] = answer.check->seconds;
     chosen["measured_noise"] = answer.check->noise;
     chosen["measured_rays"] = answer.check->rays;
-    chosen["correction"] = answer.correction;
+    chosen["checked"] = point_json(answer, answer.checked);
     chosen["measured_error"] = json_of(answer.check->error);
     chosen["within"] = within_of(answer.plan.target);
     chosen["share_within"] = json_of(answer.check->share_within);
@@ -125,8 +126,11 @@ Json to_json(const AccuracyAnswer& answer) {
     rivals.push_back(point_json(answer, point));
     rivals.back()["reached"] = reaches(answer, point);
   }
+  Json ties = Json::array();
+  for (const sim::Estimator one : answer.plan.ties) ties.push_back(name(one));
   return {{"answer", chosen},
           {"rivals", rivals},
+          {"ties", ties},
           {"floor", answer.plan.floor},
           {"points", points},
           {"reference", reference_json(answer)},
@@ -192,8 +196,8 @@ std::string csv_of(const AccuracyAnswer& answer) {
     cells["noise_high"] = point.noise_high;
     cells["error_low"] = point.total_low;
     cells["error_high"] = point.total_high;
-    for (const char* other : {"axis", "noise_interval", "bias_interval", "mean_bias_error", "error_interval",
-                              "variance", "slope", "slope_interval", "processor_seconds", "cut_off"})
+    for (const char* other : {"axis", "noise_interval", "noise_weak", "bias_interval", "mean_bias_error",
+                              "error_interval", "variance", "slope", "slope_interval", "processor_seconds", "cut_off"})
       cells.erase(other);
     cells.update(measured);
     add_row(role, cells);
@@ -204,7 +208,7 @@ std::string csv_of(const AccuracyAnswer& answer) {
   const auto& check = answer.check;
   Json checked = check ? measured(check->noise, check->error, check->seconds) : Json::object();
   checked["planning_seconds"] = answer.seconds;
-  checked["correction"] = answer.correction;
+  checked["correction"] = check ? Json(answer.plan.answer.rays / answer.checked.rays) : Json();
   add("answer", answer.plan.answer, checked);
   for (const AccuracyPoint& point : answer.plan.rivals) add("rival", point);
   for (const AccuracyPoint& point : answer.plan.points) add("point", point);

@@ -58,6 +58,10 @@ std::string rivals_words(const AccuracyAnswer& answer) {
       text += fmt::format(" has {}", percent(rival.total));
     else if (!reaches(answer, rival))
       text += fmt::format(" does not reach it: its bias is {}", bias_words(rival));
+    else if (target.kind == AccuracyTarget::Kind::noise && rival.bias > target.value)
+      text += fmt::format(" is left out for its bias, {}", bias_words(rival));
+    else if (std::ranges::find(answer.plan.ties, rival.estimator) != answer.plan.ties.end())
+      text += fmt::format(" is about as fast (bias {})", bias_words(rival));
     else
       text += fmt::format(" takes {:.2g} times as long (bias {})", rival.seconds / answer.plan.answer.seconds,
                           bias_words(rival));
@@ -157,14 +161,14 @@ std::string answer_words(const AccuracyAnswer& answer) {
                        best.trace_seconds);
     text += error_words(best);
   }
-  if (answer.check && answer.correction != 1)
-    text += fmt::format("Corrected: {:.3g} pieces, predicted by the pilot, had {} noise and took {:.2g} s. ",
-                        answer.check->rays, percent(answer.check->noise), answer.check->seconds);
-  else if (answer.check)
-    text += fmt::format("Run once to check: {} noise{}, {:.2g} s. ", percent(answer.check->noise),
+  if (best.noise_weak) text += "The noise is weak: a few photons bring most of it in the pilot. ";
+  if (answer.check)
+    text += fmt::format("Run once to check{}: {} noise{}, {:.2g} s. ",
+                        answer.checked.rays == best.rays ? "" : ", before the check: " + way(answer, answer.checked),
+                        percent(answer.check->noise),
                         answer.check->error ? fmt::format(", {} total", percent(*answer.check->error)) : "",
                         answer.check->seconds);
-  else
+  else if (!answer.no_check.empty())
     text += answer.no_check + " ";
   if (answer.check && answer.check->share_within)
     text += fmt::format("{} of the samples are within {}. ", percent(*answer.check->share_within),

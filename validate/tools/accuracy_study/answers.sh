@@ -22,7 +22,7 @@ for scene in "$@"; do
     kept=$folder/$name-${target%:*}-${target#*:}.csv
     # Exit code 3: the error is not reached, or not all seeds were run within the time limit.
     [ -s "$kept" ] || "$detp" accuracy "$scene" --target-"${target%:*}" "${target#*:}" --reference "$folder/$name.reference" \
-      --seeds "$seeds" --time-limit "$seconds" --quiet --format csv -o "$kept" || [ $? = 3 ]
+      --check --seeds "$seeds" --time-limit "$seconds" --quiet --format csv -o "$kept" || [ $? = 3 ]
     [ -s "$kept.runs" ] && continue
     command=$(awk -F, '$2 == "answer" { print $31 }' "$kept")
     awk -F, '$2 == "answer" { exit $22 >= 6 }' "$kept" || continue

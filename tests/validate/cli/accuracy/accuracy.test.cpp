@@ -15,12 +15,14 @@ namespace detp::support {
 
 TEST_SUITE("accuracy") {
   TEST_CASE("an answer has setting, errors, seconds and a command; running the command gives about the noise") {
-    const Json json = result_of("accuracy @cornell --target-noise 10% --estimators disc,triangle-hits");
+    const Json json = result_of("accuracy @cornell --target-noise 10% --estimators disc,triangle-hits --check");
     const Json& answer = json["answer"];
     CHECK(answer["noise"].get<double>() == doctest::Approx(0.1).epsilon(1e-3));
     CHECK(answer["measured_noise"].get<double>() == doctest::Approx(0.1).epsilon(0.2));
-    const double corrected = answer["measured_rays"].get<double>() * answer["correction"].get<double>();
-    CHECK(answer["rays"].get<double>() == doctest::Approx(corrected).epsilon(0.01));
+    CHECK(answer["checked"]["rays"].get<double>() ==
+          doctest::Approx(answer["measured_rays"].get<double>()).epsilon(0.01));
+    CHECK(json["ties"].is_array());
+    CHECK_FALSE(answer["noise_weak"].get<bool>());
     CHECK(answer["error"].get<double>() >= answer["noise"].get<double>());
     CHECK(answer["error_interval"][0].get<double>() <= answer["error"].get<double>());
     CHECK(answer["measured_seconds"].get<double>() > 0);
@@ -33,8 +35,13 @@ TEST_SUITE("accuracy") {
     CHECK(run["rays"].get<double>() == doctest::Approx(answer["rays"].get<double>()).epsilon(0.01));
   }
 
-  TEST_CASE("a quick answer is not run to check") {
-    const Json json = result_of("accuracy @cornell --target-noise 10% --estimators disc --effort quick");
+  TEST_CASE("the same seed gives the same answer, not run to check; whatever else the machine does") {
+    const std::string command = "accuracy @cornell --target-noise 10% --effort quick";
+    const Json json = result_of(command);
+    Json again = result_of(command + " --threads 2");
+    CHECK(again["answer"]["command"] == result_of(command + " --threads 2")["answer"]["command"]);
+    CHECK(again["answer"] == result_of(command + " --threads 2")["answer"]);
+    CHECK(again["points"] == result_of(command + " --threads 2")["points"]);
     CHECK(json["inputs"]["effort"] == "quick");
     CHECK_FALSE(json["answer"].contains("measured_noise"));
     CHECK(json["answer"]["noise"].get<double>() == doctest::Approx(0.1).epsilon(1e-3));
@@ -53,7 +60,7 @@ TEST_SUITE("accuracy") {
     const ScratchFolder folder;
     const std::string file = folder.path("furnace.json");
     const std::string command =
-        "accuracy @furnace --target-noise 20% --estimators disc --seeds 3:7 --reference " + file;
+        "accuracy @furnace --target-noise 20% --estimators disc --check --seeds 3:7 --reference " + file;
     const Json json = result_of(command);
     CHECK(json["reference"]["kind"] == "known");
     CHECK(json["reference"]["error"] == 0);

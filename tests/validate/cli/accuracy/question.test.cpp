@@ -34,8 +34,7 @@ std::string two_floors(const ScratchFolder& folder) {
 TEST_SUITE("the samples in question") {
   TEST_CASE("errors are those of the discs of a file: in the middle of a wall there is no bias") {
     const ScratchFolder folder;
-    const Json json =
-        result_of("accuracy @furnace --estimators disc --effort quick --discs " + discs_in_the_middle(folder));
+    const Json json = result_of("accuracy @furnace --estimators disc --discs " + discs_in_the_middle(folder));
     CHECK(json["reference"]["kind"] == "backward paths");
     CHECK(json["warnings"].dump().find("has radii") != std::string::npos);
     CHECK(json["reference"]["samples"] == 25);
