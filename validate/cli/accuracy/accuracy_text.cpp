@@ -155,10 +155,10 @@ std::string answer_words(const AccuracyAnswer& answer) {
                        percent(best.total), percent(best.total_low), percent(best.total_high), percent(best.noise),
                        percent(best.bias), way(answer, best));
   } else {
-    text = fmt::format("{} {} takes {}: {:.2g} s ({:.2g} to {:.2g}), of which {:.2g} s traces photons. ",
-                       percent(target.value), target.kind == AccuracyTarget::Kind::noise ? "noise" : "error",
-                       way(answer, best), best.seconds, best.seconds / seconds_factor, seconds_factor * best.seconds,
-                       best.trace_seconds);
+    text = fmt::format("{} {} takes {}: {:.2g} s ({:.2g} to {:.2g}){}. ", percent(target.value),
+                       target.kind == AccuracyTarget::Kind::noise ? "noise" : "error", way(answer, best), best.seconds,
+                       best.seconds / seconds_factor, seconds_factor * best.seconds,
+                       gathers(best) ? "" : fmt::format(", of which {:.2g} s traces photons", best.trace_seconds));
     text += error_words(best);
   }
   if (best.noise_weak) text += "The noise is weak: a few photons bring most of it in the pilot. ";
@@ -225,7 +225,7 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
   };
   std::vector<AccuracyPoint> shown;
   for (const AccuracyPoint& point : answer.plan.points)
-    if (point.on_frontier && !is_answer(answer, point)) shown.push_back(point);
+    if (point.on_frontier && point.total < 1 && !is_answer(answer, point)) shown.push_back(point);
   std::ranges::sort(shown, {}, &AccuracyPoint::seconds);
   // of points that are equally fast, the most accurate one
   std::vector<AccuracyPoint> best;
