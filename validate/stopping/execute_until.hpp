@@ -78,10 +78,10 @@ class StoredBatches {
   [[nodiscard]] std::optional<RayBatch> next(std::uint64_t rays);
 
   [[nodiscard]] bool at_end() const { return drawn_ == photons_ || given_ == all_.rays.size(); }
-  /// Goes on after the batches that had so many photons and rays.
+  /// Goes on after the batches that had so many photons and rays; if there are fewer, at the end.
   void skip(std::uint64_t photons, std::uint64_t rays) {
-    drawn_ = photons;
-    given_ = rays;
+    drawn_ = std::min(photons, photons_);
+    given_ = static_cast<std::size_t>(std::min<std::uint64_t>(rays, all_.rays.size()));
   }
 
  private:
@@ -95,7 +95,7 @@ class StoredBatches {
   std::optional<RandomOrder> order_;
   sim::Paths batch_;
   std::uint64_t drawn_ = 0;  ///< photons, of all that were given
-  std::uint64_t given_ = 0;  ///< rays
+  std::size_t given_ = 0;    ///< rays
 };
 
 }  // namespace detp::validate

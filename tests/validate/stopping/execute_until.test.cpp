@@ -75,6 +75,11 @@ TEST_SUITE("stopping") {
     StoredBatches later(job.paths(), job.independent_photons(), 5);
     later.skip(static_cast<std::uint64_t>(first->photons), first->rays.rays.size());
     CHECK(later.next(10)->rays.rays.front().origin == whole.next(10)->rays.rays.front().origin);
+    // A run may have had more rays than are stored.
+    StoredBatches in_order(job.paths(), job.independent_photons());
+    in_order.skip(1'000'000, 1'000'000);
+    CHECK(in_order.at_end());
+    CHECK_FALSE(in_order.next(10));
   }
 
   TEST_CASE("a random order has each number once, and no place is special") {
