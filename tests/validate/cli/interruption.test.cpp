@@ -172,7 +172,7 @@ TEST_SUITE("end to end") {
     };
     const std::string model = "model --samples 10 --disc-radius 0.1 --scene-side 1 --output " + unopened;
     for (const std::string& pipe : {unopened, unread}) {
-      const std::string run = "run @cornell --rays 200k --technique box-tree --calibration none --pairs " + pipe;
+      const std::string run = "run @cornell --rays 10k --technique box-tree --calibration none --pairs " + pipe;
       for (const std::string& line : pipe == unopened ? std::vector{model, run} : std::vector{run}) {
         CHECK(in_attempts(3, [&] {
           const Finished finished = detp(line + " --time-limit 1");

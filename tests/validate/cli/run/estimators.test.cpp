@@ -120,7 +120,9 @@ TEST_SUITE("run --estimator") {
   }
 
   TEST_CASE("a run by paths stops in time, and says at how many discs it was") {
-    const Finished finished = detp("run @cornell --estimator gather --paths 1M --time-limit 0.5 --format json");
+    const Finished finished =
+        stopped_in_time("run @cornell --estimator gather --paths 1M --format json",
+                        [](const Finished& one) { return one.code == 3 && one.json().contains("mean_irradiance"); });
     CHECK(finished.code == 3);
     const Json json = finished.json();
     CHECK(json["stopped"] == true);
