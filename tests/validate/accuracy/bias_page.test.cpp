@@ -39,6 +39,20 @@ TEST_SUITE("figures") {
     check_says(page, fmt::format("{} of 540", inside));
     CHECK(inside >= 497);  // 92 %
   }
+
+  TEST_CASE("the page's table of gather is that of gather.csv") {
+    const std::string page = source_text("validate/accuracy/README.md");
+    const auto cell = [](const CsvRow& row, const char* column, double factor, const char* unit) {
+      return row.at(column).empty() ? std::string("–") : fmt::format("{:.2g}{}", factor * number(row, column), unit);
+    };
+    for (const CsvRow& row : published("gather.csv"))
+      if (row.at("paths").empty())
+        check_says(page, fmt::format("| {} | left out: misses up to {:.2g} % | | |", row.at("scene"),
+                                     100 * number(row, "missed_bound")));
+      else
+        check_says(page, fmt::format("| {} | {} | {} | {} |", row.at("scene"), row.at("paths"),
+                                     cell(row, "noise_of_run", 100, " %"), cell(row, "seconds", 1, "")));
+  }
 }
 
 }  // namespace detp::support
