@@ -26,14 +26,9 @@ struct SomePhotons {
   std::vector<Ray> rays;
   std::vector<std::uint64_t> photons;
 
-  template <class IsWanted>
-  SomePhotons(const Problem& problem, const IsWanted& is_wanted) {
-    for (std::size_t ray = 0; ray < problem.rays().size(); ++ray) {
-      const std::uint64_t photon = problem.photon(ray);
-      if (!is_wanted(part_of(photon))) continue;
-      rays.push_back(problem.rays()[ray]);
-      photons.push_back(photon);
-    }
+  void add(const Ray& ray, std::uint64_t photon) {
+    rays.push_back(ray);
+    photons.push_back(photon);
   }
 };
 
@@ -54,7 +49,7 @@ DiscResult sum_of(const DiscResult& a, const DiscResult& b) {
   };
   const bool known = a.standard_error < unbounded || b.standard_error < unbounded || (a.hits > 0 && b.hits > 0);
   if (known) sum.standard_error = std::hypot(error(a), error(b));
-  if (is_weak(a))
+  if (is_weak(a) || a.standard_error == 0)
     sum.upper_bound = a.upper_bound + b.upper_bound;
   else
     sum.upper_bound = sum.irradiance + (a.upper_bound - a.irradiance) / a.standard_error * sum.standard_error;
@@ -101,9 +96,15 @@ std::vector<Disc> discs_of_pilot(std::span<const Disc> discs, std::span<const st
 
 Outcome estimate_with_variable_radius(const Problem& problem, const Candidate& candidate, const RunOptions& options) {
   const Stopwatch watch;
-  const SomePhotons first(problem, [](Part part) { return part == Part::first; });
-  const SomePhotons second(problem, [](Part part) { return part == Part::second; });
-  const SomePhotons others(problem, [](Part part) { return part != Part::first; });
+  SomePhotons first;
+  SomePhotons second;
+  SomePhotons others;  // all but the first
+  for (std::size_t ray = 0; ray < problem.rays().size(); ++ray) {
+    const std::uint64_t photon = problem.photon(ray);
+    const Part part = part_of(photon);
+    (part == Part::first ? first : others).add(problem.rays()[ray], photon);
+    if (part == Part::second) second.add(problem.rays()[ray], photon);
+  }
   if (first.rays.empty() || second.rays.empty())
     throw std::invalid_argument(
         "variable-radius needs more photons: some of them find the radii, the others the light");

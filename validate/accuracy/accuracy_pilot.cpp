@@ -16,13 +16,13 @@ namespace detp::validate {
 namespace {
 
 constexpr std::size_t runs = 8;               // of each setting
-constexpr std::size_t samples_judged = 1000;  // of the runs; times are taken with all
+constexpr std::size_t samples_judged = 1000;  // at most, by the runs
 constexpr std::array radii_over_distance{0.25, 0.5, 1.0, 2.0};
 constexpr std::array nearest_of_run{5, 10, 20, 40};  // k in a run of the pilot
 constexpr int batches_of_missed_light = 8;
 constexpr double first_photons_of_a_batch = 1 << 12;
-constexpr double patch_over_edge =
-    0.25;  // of missed light: more than in references, or a pilot's photons would be too few
+// Of missed light: twice that of references, because a pilot has few photons.
+constexpr double patch_over_edge = 0.25;
 
 Estimate scaled(const Estimate& one, double factor) { return {one.mean * factor, one.standard_error * factor}; }
 
@@ -271,7 +271,7 @@ double PilotMaker::predicted_seconds(double rays, std::uint64_t paths, const Acc
     }
   }
   const double more = static_cast<double>(paths) / static_cast<double>(first_paths());
-  const double added = static_cast<double>(paths - (before != nullptr ? before->judge.paths : 0));
+  const auto added = static_cast<double>(paths - std::min(paths, paths_made_));
   seconds += samples * added * costs_.path(1 / photons_per_ray);
   constexpr double pieces_followed = 3;  // of a photon for missed light: to the first surface, and some to the samples
   if (judge_->misses_light())
@@ -293,6 +293,7 @@ AccuracyPilot PilotMaker::make(double rays, std::uint64_t paths, const AccuracyP
   Runs all(*this, rays, before);
   if (options_.progress) options_.progress({"pilot: backward paths", 0, 1});
   judge_->add_paths(paths);  // in all
+  paths_made_ = std::max(paths_made_, paths);
   const double more = static_cast<double>(paths) / static_cast<double>(first_paths());
   judge_->add_photons(static_cast<std::uint64_t>(more * first_photons_of_a_batch), batches_of_missed_light);
   const Reference& by_paths = judge_->reference();

@@ -135,7 +135,8 @@ class PilotMaker {
   std::optional<ReferenceMaker> judge_;
   JudgedSamples judged_;
   AccuracyCosts costs_;
-  double edge_;  ///< mean, of the mesh
+  double edge_;                   ///< mean, of the mesh
+  std::uint64_t paths_made_ = 0;  ///< of the judge, at each sample
 };
 
 /// One pilot, with the options' rays and paths.

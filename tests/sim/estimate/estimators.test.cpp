@@ -223,6 +223,12 @@ TEST_SUITE("estimators") {
       CHECK(found.standard_error[disc] < 0.08);
     }
     CHECK(found.progress.done == 2 * photons);
+    // All photons meet the disc: the error is 0, and the bound is a number.
+    Paths all{.rays = std::vector<Ray>(1000, Ray{{0.25, 0.5, 1}, {0, 0, -1}, 1.1, 1})};
+    const Outcome sure = with(Estimator::variable_radius, make_problem(PathRays(all.rays), std::span(discs).first(1)),
+                              mesh, {.standard_error = true});
+    CHECK(sure.hits[0] == 1000);
+    CHECK(sure.upper_bound[0] >= sure.irradiance[0]);
   }
 
   TEST_CASE("results are the same bytes on any number of threads") {

@@ -215,6 +215,22 @@ TEST_SUITE("plans of accuracy") {
   }
 }
 
+TEST_SUITE("plans of accuracy") {
+  TEST_CASE("the seconds of a further pilot do not depend on the paths of a reference that is given") {
+    sim::Scene furnace = sim::open_scene({.name = "@furnace", .samples = {}});
+    const Reference known = make_reference(furnace, {.samples = 200});
+    Reference by_paths = known;
+    by_paths.paths = 1 << 20;
+    const auto next = [&](const Reference& reference) {
+      PilotMaker maker(furnace, {.estimators = {sim::Estimator::disc}, .reference = &reference});
+      const AccuracyPilot first = maker.make(4000, 16);
+      return maker.predicted_seconds(16'000, 16, &first);
+    };
+    CHECK(next(by_paths) == next(known));
+    CHECK(next(by_paths) < 1);
+  }
+}
+
 TEST_SUITE("long") {
   TEST_CASE("with a reference: noise of other runs is inside its interval in at least 52 of 60, the error in its own") {
     for (const char* name : {"@furnace", "@cornell"}) {

@@ -49,7 +49,7 @@ RaysTaken rays_taken(const validate::Job& job) {
 }
 
 std::string rays_line(const validate::Job& job, const RaysTaken& taken, const std::string& lengths) {
-  // photons are told unless each ray is one
+  // where each ray is a photon, their number is that of the rays
   const std::string photons = job.numbered() ? fmt::format(", {} photons", spaced(taken.photons)) : "";
   return fmt::format("rays      {} {}{}{}{}{}\n", spaced(taken.rays), rays_of(job), photons, lengths, lights_of(job),
                      taken.light ? sim::lost_light(*taken.light) : "");
