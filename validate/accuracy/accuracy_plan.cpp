@@ -170,16 +170,11 @@ std::optional<double> missed_too_much(const EstimatorPilot& own, const AccuracyT
   return bound > tolerated * target.value ? std::optional(bound) : std::nullopt;
 }
 
-/// Predicted seconds tell ways apart from here on.
+/// Ways whose predicted seconds differ by less than this factor are about as fast.
 constexpr double clearly_slower = 1.3;
 
 bool is_tied(const AccuracyPoint& a, const AccuracyPoint& b) {
   return a.seconds < clearly_slower * b.seconds && b.seconds < clearly_slower * a.seconds;
-}
-
-bool reaches_with(const AccuracyPoint& point, const AccuracyTarget& target) {
-  constexpr double rounding = 1.001;
-  return (target.kind == AccuracyTarget::Kind::noise ? point.noise : point.total) <= rounding * target.value;
 }
 
 /// Of ways about as fast as the first one, that with the least total error comes first.
@@ -201,8 +196,7 @@ void take_what_is_better(AccuracyPlan& plan, const AccuracyPilot& pilot,
   for (const EstimatorPilot* own : allowed) {
     const AccuracyPoint point = Ways(pilot, *own, most_rays).best_in(plan.answer.seconds);
     const double least = clearly * (better ? better->total : plan.answer.total);
-    if (point.estimator != plan.answer.estimator && reaches_with(point, plan.target) && point.total < least)
-      better = point;
+    if (point.estimator != plan.answer.estimator && reaches(point, plan.target) && point.total < least) better = point;
   }
   if (!better) return;
   const auto same = std::ranges::find(plan.rivals, better->estimator, &AccuracyPoint::estimator);
@@ -226,6 +220,12 @@ void check(const AccuracyTarget& target, double most_rays) {
   else
     require_ratio("target error", target.value);
   require_count("number of rays", std::floor(most_rays), 1, 1e18);
+}
+
+bool reaches(const AccuracyPoint& point, const AccuracyTarget& target) {
+  constexpr double rounding = 1.001;
+  if (target.kind == AccuracyTarget::Kind::seconds) return true;
+  return (target.kind == AccuracyTarget::Kind::noise ? point.noise : point.total) <= rounding * target.value;
 }
 
 AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& target, double most_rays) {
@@ -270,7 +270,7 @@ AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& tar
   if (plan.reached) plan.rivals.insert(plan.rivals.end(), nearest.begin(), nearest.end());
   if (plan.reached && target.kind == AccuracyTarget::Kind::noise) take_what_is_better(plan, pilot, allowed, most_rays);
   for (const AccuracyPoint& rival : plan.rivals)
-    if (plan.reached && is_tied(rival, plan.answer) && !worse(rival) && reaches_with(rival, target))
+    if (plan.reached && is_tied(rival, plan.answer) && !worse(rival) && reaches(rival, target))
       plan.ties.push_back(rival.estimator);
   for (const EstimatorPilot* own : allowed) {
     const Ways ways(pilot, *own, most_rays);
@@ -359,8 +359,7 @@ PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, Accur
       return *std::ranges::find(found.pilot.estimators, point.estimator, &EstimatorPilot::estimator);
     };
     const EstimatorPilot own = estimator_of(best);
-    const double noise_error = own.noise_squared_error(best.radius > 0 ? best.radius : own.settings.front().scale) /
-                               std::sqrt(static_cast<double>(own.runs) + 1);
+    const double noise_error = own.noise_squared_error(best.scale()) / std::sqrt(static_cast<double>(own.runs) + 1);
     const bool is_noise_known = !best.noise_weak && noise_error <= known_noise;
     const bool is_bias_known = half_width(open) <= wanted;
     if ((is_bias_known && is_noise_known) || rays > most_pilot_rays) return found;

@@ -43,6 +43,8 @@ struct AccuracyPoint {
   bool on_frontier = false;  ///< no other point is more accurate and faster, their intervals apart
 
   [[nodiscard]] AccuracySetting setting() const { return {estimator, radius, nearest}; }
+  /// As SettingPilot::scale.
+  [[nodiscard]] double scale() const { return radius > 0 ? radius : nearest > 0 ? nearest / rays : 1; }
 };
 
 struct AccuracyPlan {
@@ -60,6 +62,9 @@ struct AccuracyPlan {
 
 /// Throws std::invalid_argument unless an error is in (0, 1), seconds are > 0, and there may be from 1 to 1e18 rays.
 void check(const AccuracyTarget& target, double most_rays);
+
+/// Whether the point has the target's error, but for rounding; of a time, always.
+[[nodiscard]] bool reaches(const AccuracyPoint& point, const AccuracyTarget& target);
 
 /// From a pilot, by closed forms: noise² falls as 1/rays, bias does not change, seconds grow in proportion. gather is left out if the
 /// light that it misses may be above a tenth of the target.

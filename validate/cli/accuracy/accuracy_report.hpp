@@ -44,9 +44,6 @@ struct AccuracyAnswer {
   return point.estimator == sim::Estimator::gather;
 }
 
-/// Whether the point has the target's error; of a time, always.
-[[nodiscard]] bool reaches(const AccuracyAnswer& answer, const validate::AccuracyPoint& point);
-
 /// The error for which AccuracyCheck::share_within counts samples: the target's, else 5 %.
 [[nodiscard]] inline double within_of(const validate::AccuracyTarget& target) {
   return target.kind == validate::AccuracyTarget::Kind::seconds ? 0.05 : target.value;

@@ -124,7 +124,7 @@ Json to_json(const AccuracyAnswer& answer) {
   Json rivals = Json::array();
   for (const AccuracyPoint& point : answer.plan.rivals) {
     rivals.push_back(point_json(answer, point));
-    rivals.back()["reached"] = reaches(answer, point);
+    rivals.back()["reached"] = reaches(point, answer.plan.target);
   }
   Json ties = Json::array();
   for (const sim::Estimator one : answer.plan.ties) ties.push_back(name(one));
@@ -187,7 +187,7 @@ std::string csv_of(const AccuracyAnswer& answer) {
   };
   const auto add = [&](const char* role, const AccuracyPoint& point, const Json& measured = Json::object()) {
     Json cells = point_json(answer, point);
-    cells["reached"] = reaches(answer, point);
+    cells["reached"] = reaches(point, answer.plan.target);
     cells["reference"] = name(answer.pilot.judge.kind);
     cells["reference_error"] = answer.pilot.judge.error;
     cells["bias_low"] = point.bias_low;

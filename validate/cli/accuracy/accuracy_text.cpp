@@ -56,7 +56,7 @@ std::string rivals_words(const AccuracyAnswer& answer) {
     text += fmt::format("; {}", name(rival.estimator));
     if (target.kind == AccuracyTarget::Kind::seconds || !answer.plan.reached)
       text += fmt::format(" has {}", percent(rival.total));
-    else if (!reaches(answer, rival))
+    else if (!reaches(rival, target))
       text += fmt::format(" does not reach it: its bias is {}", bias_words(rival));
     else if (target.kind == AccuracyTarget::Kind::noise && rival.bias > target.value)
       text += fmt::format(" is left out for its bias, {}", bias_words(rival));
@@ -174,14 +174,6 @@ std::string answer_words(const AccuracyAnswer& answer) {
     text += fmt::format("{} of the samples are within {}. ", percent(*answer.check->share_within),
                         percent(within_of(target)));
   return text + command_of(answer, best);
-}
-
-/// Whether the point has the target's error; of a time, always.
-bool reaches(const AccuracyAnswer& answer, const AccuracyPoint& point) {
-  constexpr double rounding = 1.001;
-  const AccuracyTarget& target = answer.plan.target;
-  if (target.kind == AccuracyTarget::Kind::seconds) return true;
-  return (target.kind == AccuracyTarget::Kind::noise ? point.noise : point.total) <= rounding * target.value;
 }
 
 std::size_t inside(const AccuracyAnswer& answer) {
