@@ -78,17 +78,22 @@ void add(const Outcome& part, Outcome& rest) {
 
 }  // namespace
 
-std::vector<Disc> discs_of_pilot(std::span<const Disc> discs, std::span<const std::uint64_t> hits) {
+std::uint64_t usual_hits(std::span<const std::uint64_t> hits) {
   std::vector<std::uint64_t> met;
   for (const std::uint64_t count : hits)
     if (count > 0) met.push_back(count);
-  std::vector<Disc> changed(discs.begin(), discs.end());
-  if (met.empty()) return changed;
+  if (met.empty()) return 0;
   const auto middle = met.begin() + static_cast<std::ptrdiff_t>(met.size() / 2);
   std::nth_element(met.begin(), middle, met.end());
-  const auto usual = static_cast<double>(*middle);
+  return *middle;
+}
+
+std::vector<Disc> discs_of_pilot(std::span<const Disc> discs, std::span<const std::uint64_t> hits,
+                                 std::uint64_t usual) {
+  std::vector<Disc> changed(discs.begin(), discs.end());
+  if (usual == 0) return changed;
   for (std::size_t i = 0; i < changed.size(); ++i) {
-    const double factor = std::sqrt((usual + 1) / (static_cast<double>(hits[i]) + 1));
+    const double factor = std::sqrt((static_cast<double>(usual) + 1) / (static_cast<double>(hits[i]) + 1));
     changed[i].radius *= std::clamp(factor, 1 / most_growth, most_growth);
   }
   return changed;
@@ -113,7 +118,7 @@ Outcome estimate_with_variable_radius(const Problem& problem, const Candidate& c
   quick.progress = {};
   const auto radii_by = [&](const SomePhotons& some) {
     const Outcome found = search(problem, some, problem.discs(), candidate, quick);
-    return found.stopped ? std::vector<Disc>() : discs_of_pilot(problem.discs(), found.hits);
+    return found.stopped ? std::vector<Disc>() : discs_of_pilot(problem.discs(), found.hits, usual_hits(found.hits));
   };
   const std::vector<Disc> by_first = radii_by(first);
   const std::vector<Disc> by_second = radii_by(second);

@@ -21,7 +21,10 @@ inline constexpr double most_growth = 2;
 ///
 /// So all discs meet about as many rays, and have about the same relative noise. Source: the idea is of M. Lastra, "Técnicas de estimación de
 /// densidades para iluminación global" (2004): a radius for each point from the rays nearby; the rule is ours.
-[[nodiscard]] std::vector<Disc> discs_of_pilot(std::span<const Disc> discs, std::span<const std::uint64_t> hits);
+[[nodiscard]] std::vector<Disc> discs_of_pilot(std::span<const Disc> discs, std::span<const std::uint64_t> hits,
+                                               std::uint64_t usual);
+/// m; 0 if there are no hits: then radii stay.
+[[nodiscard]] std::uint64_t usual_hits(std::span<const std::uint64_t> hits);
 
 /// A tenth of the photons, drawn at random by their numbers, finds radii for all others, and another tenth finds those for the first: the radii
 /// do not depend on the photons that they count, so given the radii the sum of both estimates is that by discs, and no photon is left

@@ -25,13 +25,14 @@ constexpr int bounces_in_glass = 64;
 constexpr double goes_on = 0.98;
 constexpr std::uint64_t paths_in_a_round = 64;
 
-/// The random numbers of one path: four for each of its decisions.
+/// The random numbers of one path, four for each of its decisions, and the number of rays that it casts.
 class PathNumbers {
  public:
   PathNumbers(std::uint64_t seed, std::uint64_t sample, std::uint64_t path, bool front)
       : seed_(seed), path_((sample << 33) | (path << 1) | (front ? 1 : 0)) {}
 
   std::array<double, 4> next() { return uniform4(seed_, Stream::reference, path_, decision_++); }
+  std::uint64_t casts = 0;
 
  private:
   std::uint64_t seed_;
@@ -54,21 +55,23 @@ struct BackwardPaths::Walk {
   }
 
   [[nodiscard]] double irradiance(const std::vector<StartPlace>& places, const Sample& sample, std::uint64_t number,
-                                  std::uint64_t path, bool front) const {
+                                  std::uint64_t path, bool front, std::uint64_t& casts) const {
     PathNumbers numbers(seed, number, path, front);
     const glm::dvec3 normal = front ? sample.normal : -sample.normal;
     const StartPlace& place = places[path % places.size()];
-    const double straight = from_light(place, normal, numbers.next());
-    return straight + from_surfaces(place, normal, numbers);
+    const double straight = from_light(place, normal, numbers);
+    const double sum = straight + from_surfaces(place, normal, numbers);
+    casts += numbers.casts;
+    return sum;
   }
 
   /// Straight from one light, on the side of the normal.
-  [[nodiscard]] double from_light(const StartPlace& place, const glm::dvec3& normal,
-                                  const std::array<double, 4>& random) const {
-    const SeenLight light = lights.sample(caster->to_scene(place.point), random);
+  [[nodiscard]] double from_light(const StartPlace& place, const glm::dvec3& normal, PathNumbers& numbers) const {
+    const SeenLight light = lights.sample(caster->to_scene(place.point), numbers.next());
     const double cosine = glm::dot(normal, light.direction);
     if (!(cosine > least_cosine && light.irradiance > 0)) return 0;
     if (light.triangle && light.triangle == place.triangle) return 0;
+    ++numbers.casts;
     const auto hit = caster->first_intersection(place.point, light.direction, place.triangle);
     constexpr double at_light = 1 - 1e-7;  // of the distance; behind, or on, the light
     const bool free = !hit || (light.triangle && hit->triangle == *light.triangle) ||
@@ -88,6 +91,7 @@ struct BackwardPaths::Walk {
     int since_diffuse = 0;
     for (std::uint64_t bounce = 0; bounce < most_bounces; ++bounce) {
       look.origin = caster->to_scene(place.point);
+      ++numbers.casts;
       const auto hit = caster->first_intersection(place.point, look.direction, place.triangle);
       const double distance = hit ? hit->distance * caster->scale() : unbounded;
       sum += weight * lights.radiance_on_the_way(look, distance);
@@ -109,7 +113,7 @@ struct BackwardPaths::Walk {
       }
       if (random[0] < material.diffuse) {
         since_diffuse = 0;
-        sum += weight * std::numbers::inv_pi * from_light(place, side, numbers.next());
+        sum += weight * std::numbers::inv_pi * from_light(place, side, numbers);
         look.density = glm::dot(side, *next) * std::numbers::inv_pi;
       } else if (glm::dot(*next, side) < 0) {
         weight /= std::pow(on_front ? material.index : 1 / material.index, 2);
@@ -130,7 +134,8 @@ BackwardPaths::BackwardPaths(const Scene& scene, std::uint64_t seed, std::shared
 BackwardPaths::~BackwardPaths() = default;
 
 double BackwardPaths::irradiance(const Sample& sample, std::uint64_t number, std::uint64_t path, bool front) const {
-  return walk_->irradiance(start_places(*walk_->caster, sample, walk_->reach), sample, number, path, front);
+  std::uint64_t casts = 0;
+  return walk_->irradiance(start_places(*walk_->caster, sample, walk_->reach), sample, number, path, front, casts);
 }
 
 void BackwardPaths::add(const Sample& sample, std::uint64_t number, std::uint64_t paths, bool front_facing,
@@ -139,7 +144,7 @@ void BackwardPaths::add(const Sample& sample, std::uint64_t number, std::uint64_
   for (; sums.paths < paths; ++sums.paths)
     for (const bool front : {true, false}) {
       if (!front && front_facing) continue;
-      const double one = walk_->irradiance(places, sample, number, sums.paths, front);
+      const double one = walk_->irradiance(places, sample, number, sums.paths, front, sums.casts);
       (front ? sums.front : sums.back) += one;
       (front ? sums.front_squares : sums.back_squares) += one * one;
       sums.largest = std::max(sums.largest, one);

@@ -19,8 +19,9 @@ struct PathSums {
   double back = 0;
   double front_squares = 0;
   double back_squares = 0;
-  double largest = 0;     ///< brought by one path
-  std::uint64_t lit = 0;  ///< paths that brought light, of both sides
+  double largest = 0;       ///< brought by one path
+  std::uint64_t lit = 0;    ///< paths that brought light, of both sides
+  std::uint64_t casts = 0;  ///< rays that the paths cast
 
   [[nodiscard]] double irradiance() const { return (front + back) / static_cast<double>(paths); }
   /// Of the mean of the paths.

@@ -149,16 +149,15 @@ std::vector<bool> triangles_named(const Mesh& mesh, const FaceNames& names) {
   return named;
 }
 
-std::vector<std::size_t> samples_named(const Mesh& mesh, std::span<const Sample> samples, const FaceNames& names,
-                                       const std::stop_token& stop) {
+std::vector<std::size_t> samples_on(const Mesh& mesh, std::span<const Sample> samples, const std::vector<bool>& chosen,
+                                    const std::stop_token& stop) {
   const DefaultFloatingPoint mode;
   using Found = NamedVertices::Found;
   StopCheck check(stop, finding);
-  const std::vector<bool> named = triangles_named(mesh, names);
   std::vector<Found> found;
   found.reserve(samples.size());
   {
-    const NamedVertices vertices(mesh, named, check);
+    const NamedVertices vertices(mesh, chosen, check);
     for_each_checked(samples, check, [&](const Sample& sample) { found.push_back(vertices.at(sample)); });
   }
   if (std::ranges::find(found, Found::nothing) != found.end()) {
@@ -169,7 +168,7 @@ std::vector<std::size_t> samples_named(const Mesh& mesh, std::span<const Sample>
       own.now();
       for (std::size_t i = part.begin(); i != part.end(); ++i) {
         own.after(1);
-        if (found[i] == Found::nothing && lies_on_named(samples[i], near, named, diagonal, own))
+        if (found[i] == Found::nothing && lies_on_named(samples[i], near, chosen, diagonal, own))
           found[i] = Found::named;
       }
     });
@@ -177,6 +176,13 @@ std::vector<std::size_t> samples_named(const Mesh& mesh, std::span<const Sample>
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i] == Found::named) indices.push_back(i);
+  return indices;
+}
+
+std::vector<std::size_t> samples_named(const Mesh& mesh, std::span<const Sample> samples, const FaceNames& names,
+                                       const std::stop_token& stop) {
+  const std::vector<bool> named = triangles_named(mesh, names);
+  std::vector<std::size_t> indices = samples_on(mesh, samples, named, stop);
   if (indices.empty())
     throw std::invalid_argument(
         fmt::format("no sample lies on the named faces, which are {} triangles{}", std::ranges::count(named, true),

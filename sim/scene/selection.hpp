@@ -23,15 +23,18 @@ struct FaceNames {
 /// names, for a name that no material, or no group, of the mesh has; and as check(Materials).
 [[nodiscard]] std::vector<bool> triangles_named(const Mesh& mesh, const FaceNames& names);
 
-/// Indices, in rising order, of the samples that lie on named triangles of the mesh, whose vertices have one normal each
+/// Indices, in rising order, of the samples that lie on the chosen ones of the mesh's triangles, whose vertices have one normal each
 /// (vertices.hpp).
 ///
 /// A sample at a vertex, with its normal to 1e-6, lies on all triangles with this vertex. Another sample lies on the nearest
 /// triangle, and on those that are as near to 10⁻⁹ of the diagonal of the box around the mesh. Triangles farther away than 10⁻⁶ of
 /// it, and those whose normal is not within 60° of the sample's, do not count.
 ///
-/// Cost O(n log n). Throws std::invalid_argument as triangles_named, and if there is no such sample; std::runtime_error if
-/// Embree fails; Stopped if a stop was requested.
+/// Cost O(n log n). Throws std::runtime_error if Embree fails; Stopped if a stop was requested.
+[[nodiscard]] std::vector<std::size_t> samples_on(const Mesh& mesh, std::span<const Sample> samples,
+                                                  const std::vector<bool>& chosen, const std::stop_token& stop = {});
+
+/// The same for triangles that are named. Throws std::invalid_argument as triangles_named, and if there is no such sample.
 [[nodiscard]] std::vector<std::size_t> samples_named(const Mesh& mesh, std::span<const Sample> samples,
                                                      const FaceNames& names, const std::stop_token& stop = {});
 

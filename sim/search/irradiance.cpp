@@ -23,6 +23,15 @@ void resize_results(std::size_t discs, bool errors, Outcome& outcome) {
   outcome.upper_bound.resize(errors ? discs : 0);
 }
 
+double heaviest_of_bound(double above, double squares) {
+  for (std::size_t k = 0; k < more_photons.size(); ++k) {
+    const double w = above / more_photons[k];
+    const double as_heavy = std::min(fewest_photons - 1, std::ceil(squares / (w * w) - 1e-9));
+    if (as_heavy <= static_cast<double>(k)) return w;
+  }
+  return above / more_photons.back();
+}
+
 PowerError error_of_power(double power, const ErrorSums& sums, double heaviest, double photons) {
   constexpr double least = 0x1p-900;  // smaller sums may lack terms that vanished
   const double squares = sums.squares;

@@ -85,6 +85,9 @@ struct PowerError {
 /// Of the sum P of what `photons` emitted photons bring. `heaviest` is w.
 [[nodiscard]] PowerError error_of_power(double power, const ErrorSums& sums, double heaviest, double photons);
 
+/// w of a weak error, from its bound less the power, and Σ x²: the largest that fits (finish).
+[[nodiscard]] double heaviest_of_bound(double above, double squares);
+
 /// w, from the sums of all discs and the largest power of a ray.
 [[nodiscard]] double heaviest_photon(std::span<const PhotonSums> discs, double largest_power);
 

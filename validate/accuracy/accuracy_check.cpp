@@ -18,7 +18,7 @@
 namespace detp::validate {
 namespace {
 
-constexpr std::size_t most_samples_kept = 2000;  // of each rerun
+constexpr std::size_t most_samples_kept = 10'000;  // of each rerun
 
 std::size_t whole_rays(const AccuracyPoint& point) {
   return static_cast<std::size_t>(std::max(2.0, std::ceil(point.rays)));
@@ -184,7 +184,7 @@ AccuracyPilot with_check(AccuracyPilot pilot, const AccuracyPoint& point, const 
   if (own == pilot.estimators.end() || !(check.noise > 0) || point.estimator == sim::Estimator::gather) return pilot;
   // Each ray of both says as much of the noise² of one ray.
   const double ratio = std::pow(check.noise / point.noise, 2) * check.rays / point.rays;
-  const double pooled = (pilot.rays + ratio * check.rays) / (pilot.rays + check.rays);
+  const double pooled = (own->noise_rays + ratio * check.rays) / (own->noise_rays + check.rays);
   for (SettingPilot& setting : own->settings) {
     setting.noise_squared_times_rays.mean *= pooled;
     setting.noise_squared_times_rays.standard_error *= pooled;

@@ -47,10 +47,7 @@ double AccuracyCosts::caster() const { return unit_ * 0.6 * triangles_; }
 
 GrowingSeconds AccuracyCosts::trace() const { return {caster(), unit_ * 0.05 * log_of(triangles_)}; }
 
-double AccuracyCosts::path(double pieces) const {
-  // each piece, and the start, looks for a light
-  return unit_ * 0.23 * (1 + 0.07 * log_of(triangles_)) * (pieces + 1);
-}
+double AccuracyCosts::path(double casts) const { return unit_ * (0.1 + 0.026 * log_of(triangles_)) * casts; }
 
 double AccuracyCosts::surfaces(sim::Estimator estimator) const {
   return sim::record_of(estimator).needs_mesh ? unit_ * 0.55 * triangles_ : 0;

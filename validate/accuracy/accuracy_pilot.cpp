@@ -11,6 +11,7 @@
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/photons/light_notes.hpp"
+#include "pilot_radii.hpp"
 
 namespace detp::validate {
 namespace {
@@ -31,7 +32,11 @@ Estimate scaled(const Estimate& one, double factor) { return {one.mean * factor,
 /// The runs of one pilot.
 class PilotMaker::Runs {
  public:
-  Runs(PilotMaker& of, double rays, const AccuracyPilot* before) : of_(of), options_(of.options_), before_(before) {
+  Runs(PilotMaker& of, double rays, const AccuracyPilot* before)
+      : of_(of),
+        options_(of.options_),
+        before_(before),
+        radii_of_others_(of.scene_, of.judged_.places, of.options_.relative) {
     pilot_.sample_distance = of.edge_;
     pilot_.trace = of.costs_.trace();
     radii_ = of.radii();
@@ -43,7 +48,8 @@ class PilotMaker::Runs {
 
   /// `reference`: the truth; `by_paths`: what gather finds.
   AccuracyPilot make(const Reference& reference, const Reference& by_paths) && {
-    pilot_.mean_square = reference.mean_square();
+    pilot_.casts_per_path = by_paths.casts_per_path;
+    pilot_.mean_square = pilot_.judged_square = reference.mean_square();
     report("pilot: tracing");
     trace();
     if (!(pilot_.mean_square > 0)) throw NoLight(without_light());
@@ -91,12 +97,33 @@ class PilotMaker::Runs {
 
   [[nodiscard]] Found runs_of(const AccuracySetting& setting) {
     const double overshoot = of_.maker_.overshoot(uses_radius(setting.estimator) ? setting.radius : 0);
+    std::vector<std::vector<sim::Ray>> rays;
+    for (const sim::Paths& paths : paths_) rays.push_back(with_overshoot(paths, of_.scene_, overshoot));
+    const auto estimate = [&](std::size_t run, std::span<const sim::Sample> samples, const AccuracySetting& one,
+                              std::span<const double> relative) {
+      sim::PathRays same = paths_[run];
+      same.rays = rays[run];
+      return of_.maker_.estimate(same, samples, one, false, relative);
+    };
+    const std::vector<sim::Sample>& judged = of_.judged_.samples;
+    const AccuracySetting plain{sim::Estimator::disc, setting.radius};
+    const bool varies = setting.estimator == sim::Estimator::variable_radius;
+    std::vector<std::vector<std::uint64_t>> hits;
+    std::vector<std::uint64_t> all_hits(radii_of_others_.samples().size());
+    for (std::size_t run = 0; varies && run < runs; ++run) {
+      hits.push_back(estimate(run, radii_of_others_.samples(), plain, radii_of_others_.relative()).hits);
+      for (std::size_t i = 0; i < all_hits.size(); ++i) all_hits[i] += hits.back()[i];
+    }
     Found all;
-    for (const sim::Paths& paths : paths_) {
-      const std::vector<sim::Ray> rays = with_overshoot(paths, of_.scene_, overshoot);
-      sim::PathRays same = paths;
-      same.rays = rays;
-      sim::Outcome outcome = of_.maker_.estimate(same, of_.judged_.samples, setting, false, relative_);
+    for (std::size_t run = 0; run < runs; ++run) {
+      sim::Outcome outcome;
+      if (varies) {
+        std::vector<std::uint64_t> others = all_hits;
+        for (std::size_t i = 0; i < others.size(); ++i) others[i] -= hits[run][i];
+        outcome = estimate(run, judged, plain, radii_of_others_.of(setting.radius, others));
+      } else {
+        outcome = estimate(run, judged, setting, relative_);
+      }
       all.irradiance.push_back(std::move(outcome.irradiance));
       all.hits += static_cast<double>(outcome.total_hits);
     }
@@ -154,6 +181,7 @@ class PilotMaker::Runs {
       by_reference += split.by_reference;
     }
     one.runs = runs;
+    one.noise_rays = pilot_rays();
     one.by_reference = variance > 0 ? by_reference / variance : 0;
   }
 
@@ -170,7 +198,7 @@ class PilotMaker::Runs {
     setting.noise_squared_times_rays = {noise, noise * error};
     setting.bias_squared = reference.missed_squared;
     setting.mean_bias = {-reference.missed_mean, 0};
-    setting.seconds = {of_.costs_.caster(), samples * of_.costs_.path(1 / pilot_.photons_per_ray), 0};
+    setting.seconds = {of_.costs_.caster(), samples * of_.costs_.path(pilot_.casts_per_path), 0};
     one.runs = runs;
   }
 
@@ -181,6 +209,7 @@ class PilotMaker::Runs {
   AccuracyPilot pilot_;
   std::vector<double> radii_;
   std::vector<double> relative_;
+  PilotRadii radii_of_others_;
   std::size_t rays_of_run_ = 0;
   std::vector<sim::Paths> paths_;
   bool met_ = false;  ///< some photon met some sample
@@ -250,10 +279,9 @@ GrowingSeconds PilotMaker::seconds_of(const SettingPilot& setting, double judged
 }
 
 double PilotMaker::predicted_seconds(double rays, std::uint64_t paths, const AccuracyPilot* before) const {
-  constexpr double usual_photons_per_ray = 0.5;
+  constexpr double usual_casts_per_path = 5;
   const auto samples = static_cast<double>(judged_.samples.size());
   const double share = samples / static_cast<double>(scene_.samples.size());
-  const double photons_per_ray = before != nullptr ? before->photons_per_ray : usual_photons_per_ray;
   const double of_run = std::max(rays / runs, 1.0);
   double seconds = costs_.trace().per_ray * rays;
   const std::vector<EstimatorPilot> first = before != nullptr ? std::vector<EstimatorPilot>() : settings_of(of_run);
@@ -272,7 +300,7 @@ double PilotMaker::predicted_seconds(double rays, std::uint64_t paths, const Acc
   }
   const double more = static_cast<double>(paths) / static_cast<double>(first_paths());
   const auto added = static_cast<double>(paths - std::min(paths, paths_made_));
-  seconds += samples * added * costs_.path(1 / photons_per_ray);
+  seconds += samples * added * costs_.path(before != nullptr ? before->casts_per_path : usual_casts_per_path);
   constexpr double pieces_followed = 3;  // of a photon for missed light: to the first surface, and some to the samples
   if (judge_->misses_light())
     seconds += more * first_photons_of_a_batch * batches_of_missed_light * pieces_followed * costs_.trace().per_ray;
@@ -283,7 +311,8 @@ double PilotMaker::first_rays() const {
   if (options_.rays > 0) return options_.rays;
   constexpr double fewest = 4000;
   double rays = usual_pilot_rays;
-  while (rays > fewest && predicted_seconds(rays, first_paths(), nullptr) > options_.least_price) rays /= 1.25;
+  while (rays > fewest && predicted_seconds(rays, first_paths(), nullptr) > share_of_pilots * options_.least_price)
+    rays /= 1.25;
   return rays;
 }
 

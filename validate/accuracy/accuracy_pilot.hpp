@@ -39,6 +39,8 @@ struct EstimatorPilot {
   std::vector<SettingPilot> settings;  ///< of rising scale
   std::size_t runs = 2;                ///< of each setting
   double by_reference = 0;             ///< share of the judge in the variance of the settings' bias²
+  double noise_rays = 0;               ///< of the runs that say how much noise there is
+  double rehearsed = 0;                ///< scale of the setting whose noise is that of a rehearsal; 0: none
 
   /// noise² with so many rays, bias², and the mean bias; interpolated between the settings, linearly in logarithms (bias² that is not known to
   /// be above 0: linearly in the logarithm of the scale). Scales outside of the settings are those of the nearest one.
@@ -68,7 +70,9 @@ struct AccuracyPilot {
   std::vector<EstimatorPilot> estimators;
   GrowingSeconds trace = {};  ///< photon paths
   double photons_per_ray = 0;
+  double casts_per_path = 0;   ///< rays that a backward path casts, with those of the other side
   double mean_square = 0;      ///< B²
+  double judged_square = 0;    ///< the same at the judged samples alone
   double sample_distance = 0;  ///< mean edge of the mesh, scene units
   PilotJudge judge = {};
   double rays = 0;              ///< of all runs together
@@ -77,6 +81,8 @@ struct AccuracyPilot {
 };
 
 inline constexpr double usual_pilot_rays = 40'000;
+/// Of the price of planning, for pilots; the rest is for rehearsals.
+inline constexpr double share_of_pilots = 0.7;
 
 struct AccuracyPilotOptions {
   std::vector<sim::Estimator> estimators;  ///< empty: all
@@ -121,8 +127,25 @@ class PilotMaker {
   /// building what traces rays, and what estimators need of the mesh.
   [[nodiscard]] double predicted_seconds(double rays, std::uint64_t paths, const AccuracyPilot* before) const;
 
+  /// Whether rehearse knows the estimator: its photons, or paths, bring sums of powers (not nearest).
+  [[nodiscard]] static bool can_rehearse(sim::Estimator estimator);
+  struct RehearsalSize {
+    double rays = 0;          ///< or backward paths at each sample
+    std::size_t samples = 0;  ///< of those that have a weight
+    double seconds = 0;       ///< by AccuracyCosts
+  };
+  /// With at most so many rays, and in so many seconds; nothing if that is too short to know more than the pilot.
+  [[nodiscard]] std::optional<RehearsalSize> rehearsal_size(const AccuracyPilot& pilot, sim::Estimator estimator,
+                                                            double scale, double most_rays, double seconds) const;
+  /// Takes the noise of an estimator from more rays, and at more samples, than the pilot, in eight parts: the mean of what sim::finish says of
+  /// each part, its error by their spread. `answer_rays`: for which the setting is rehearsed; variable-radius has radii as of so many. What the
+  /// pilot said of the estimator's other settings changes in proportion; so does B². Throws as make.
+  void rehearse(AccuracyPilot& pilot, const AccuracySetting& setting, double scale, const RehearsalSize& size,
+                double answer_rays);
+
  private:
   class Runs;
+  class Rehearsal;
   [[nodiscard]] std::vector<double> radii() const;
   /// The estimators in question with their settings, of runs of so many rays.
   [[nodiscard]] std::vector<EstimatorPilot> settings_of(double rays_of_run) const;

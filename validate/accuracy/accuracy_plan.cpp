@@ -325,62 +325,105 @@ void settle(AccuracyPilot& pilot, const AccuracyPlan& plan) {
   }
 }
 
+/// Pilots of one question, within the price of its answer.
+class Planner {
+ public:
+  Planner(sim::Scene& scene, const AccuracyTarget& target, const AccuracyPilotOptions& options, double most_rays)
+      : target_(target), options_(options), most_rays_(most_rays), maker_(scene, options) {}
+
+  PilotedPlan plan() && {
+    try {
+      make_pilots();
+      rehearse();
+    } catch (const sim::Stopped&) {
+      if (!found_.plan) throw;
+      found_.stopped = true;
+    }
+    found_.pilot.seconds = watch_.seconds();
+    return {std::move(found_.pilot), std::move(*found_.plan), found_.stopped};
+  }
+
+ private:
+  [[nodiscard]] double price() const {
+    return std::max(options_.least_price, options_.price * found_.plan->answer.seconds);
+  }
+
+  [[nodiscard]] const EstimatorPilot& estimator_of(const AccuracyPoint& point) const {
+    return *std::ranges::find(found_.pilot.estimators, point.estimator, &EstimatorPilot::estimator);
+  }
+
+  /// Until the bias is known well enough, or would cost too much.
+  void make_pilots() {
+    constexpr double enough = 0.2;           // of the target, for half the width of the bias's interval
+    constexpr double deciding_share = 0.25;  // of the variance of bias²
+    constexpr double most_pilot_rays = 4e7;
+    double rays = maker_.first_rays();
+    std::uint64_t paths = maker_.first_paths();
+    for (bool first = true;; first = false) {
+      predicted_ += maker_.predicted_seconds(rays, paths, first ? nullptr : &found_.pilot);
+      found_.pilot = maker_.make(rays, paths, first ? nullptr : &found_.pilot);
+      found_.plan = plan_accuracy(found_.pilot, target_, most_rays_);
+      const AccuracyPoint& best = found_.plan->answer;
+      const double wanted = enough * (target_.kind == AccuracyTarget::Kind::seconds ? best.total : target_.value);
+      const AccuracyPoint& open = least_known(*found_.plan, wanted);
+      if (half_width(open) <= wanted || rays > most_pilot_rays) return;
+      const double by_reference = estimator_of(open).by_reference;
+      const bool by_paths = by_reference > deciding_share && options_.reference == nullptr;
+      const bool by_rays = by_reference < 1 - deciding_share;
+      if (!by_rays && !by_paths) return;
+      settle(found_.pilot, *found_.plan);
+      double next_rays = 0;
+      std::uint64_t next_paths = 0;
+      double more = 4;
+      for (;; more /= std::sqrt(2)) {  // as much as the price allows
+        if (more < 1.4) return;
+        next_rays = by_rays ? more * rays : rays;
+        next_paths = by_paths ? static_cast<std::uint64_t>(more * static_cast<double>(paths)) : paths;
+        if (predicted_ + maker_.predicted_seconds(next_rays, next_paths, &found_.pilot) <= share_of_pilots * price())
+          break;
+      }
+      rays = next_rays;
+      paths = next_paths;
+    }
+  }
+
+  /// Until the noise of the answer is that of a rehearsal, or the price is spent: another way may be better then.
+  void rehearse() {
+    constexpr double near = 1.3;         // scales
+    constexpr double most_share = 0.25;  // of the answer's rays
+    for (;;) {
+      const AccuracyPoint& best = found_.plan->answer;
+      const double rehearsed = estimator_of(best).rehearsed;
+      if (!PilotMaker::can_rehearse(best.estimator)) return;
+      if (rehearsed > 0 && best.scale() < near * rehearsed && rehearsed < near * best.scale()) return;
+      const auto size = maker_.rehearsal_size(found_.pilot, best.estimator, best.scale(), most_share * best.rays,
+                                              price() - predicted_);
+      if (!size) return;
+      predicted_ += size->seconds;
+      maker_.rehearse(found_.pilot, best.setting(), best.scale(), *size, best.rays);
+      found_.plan = plan_accuracy(found_.pilot, target_, most_rays_);
+    }
+  }
+
+  AccuracyTarget target_;
+  AccuracyPilotOptions options_;
+  double most_rays_;
+  sim::Stopwatch watch_;
+  PilotMaker maker_;
+  struct {
+    AccuracyPilot pilot;
+    std::optional<AccuracyPlan> plan;
+    bool stopped = false;
+  } found_;
+  double predicted_ = 0;  // seconds of all pilots
+};
+
 }  // namespace
 
 PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, AccuracyPilotOptions options,
                           double most_rays) {
-  constexpr double enough = 0.2;           // of the target, for half the width of the bias's interval
-  constexpr double deciding_share = 0.25;  // of the variance of bias²
-  constexpr double known_noise = 0.1;      // relative standard error of noise²
-  constexpr double most_pilot_rays = 4e7;
   check(target, most_rays);
-  PilotedPlan found;
-  double seconds = 0;    // of all pilots, measured
-  double predicted = 0;  // of all pilots
-  PilotMaker maker(scene, options);
-  double rays = maker.first_rays();
-  std::uint64_t paths = maker.first_paths();
-  for (bool first = true;; first = false) {
-    predicted += maker.predicted_seconds(rays, paths, first ? nullptr : &found.pilot);
-    try {
-      found.pilot = maker.make(rays, paths, first ? nullptr : &found.pilot);
-    } catch (const sim::Stopped&) {
-      if (first) throw;
-      found.stopped = true;
-      return found;
-    }
-    seconds += found.pilot.seconds;
-    found.pilot.seconds = seconds;
-    found.plan = plan_accuracy(found.pilot, target, most_rays);
-    const AccuracyPoint& best = found.plan.answer;
-    const double wanted = enough * (target.kind == AccuracyTarget::Kind::seconds ? best.total : target.value);
-    const AccuracyPoint& open = least_known(found.plan, wanted);
-    const auto estimator_of = [&](const AccuracyPoint& point) {
-      return *std::ranges::find(found.pilot.estimators, point.estimator, &EstimatorPilot::estimator);
-    };
-    const EstimatorPilot own = estimator_of(best);
-    const double noise_error = own.noise_squared_error(best.scale()) / std::sqrt(static_cast<double>(own.runs) + 1);
-    const bool is_noise_known = !best.noise_weak && noise_error <= known_noise;
-    const bool is_bias_known = half_width(open) <= wanted;
-    if ((is_bias_known && is_noise_known) || rays > most_pilot_rays) return found;
-    const double by_reference = estimator_of(open).by_reference;
-    const bool by_paths = !is_bias_known && by_reference > deciding_share && options.reference == nullptr;
-    const bool by_rays = !is_noise_known || by_reference < 1 - deciding_share;
-    if (!by_rays && !by_paths) return found;
-    settle(found.pilot, found.plan);
-    const double price = std::max(options.least_price, options.price * best.seconds);
-    double next_rays = 0;
-    std::uint64_t next_paths = 0;
-    double more = 4;
-    for (;; more /= std::sqrt(2)) {  // as much as the price allows
-      if (more < 1.4) return found;
-      next_rays = by_rays ? more * rays : rays;
-      next_paths = by_paths ? static_cast<std::uint64_t>(more * static_cast<double>(paths)) : paths;
-      if (predicted + maker.predicted_seconds(next_rays, next_paths, &found.pilot) <= price) break;
-    }
-    rays = next_rays;
-    paths = next_paths;
-  }
+  return Planner(scene, target, options, most_rays).plan();
 }
 
 }  // namespace detp::validate

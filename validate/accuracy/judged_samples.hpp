@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "detp/sim/scene/scene.hpp"
@@ -11,9 +12,20 @@
 /// Where errors of estimates are taken.
 namespace detp::validate {
 
-/// Area around each of the scene's samples, over their sum: a third of the triangles at its vertex; equal for samples that are no
-/// vertices.
-[[nodiscard]] std::vector<double> area_weights(const sim::Scene& scene);
+/// Share of the mesh's area that scatters no light diffusely, but as mirrors or glass do. A renderer has no irradiance samples there; light
+/// that is caught in glass for thousands of reflections would make most of the error.
+[[nodiscard]] double mirror_share(const sim::Mesh& mesh);
+/// What is said of it; empty if it is 0.
+[[nodiscard]] std::string mirror_notice(double share);
+
+enum class Surfaces {
+  without_mirrors,  ///< those of mirror_share count only if there are no others
+  all
+};
+
+/// Area around each of the scene's samples, over their sum: a third of the triangles at its vertex that count; equal for samples that are no
+/// vertices. 0: the sample lies on none that count.
+[[nodiscard]] std::vector<double> area_weights(const sim::Scene& scene, Surfaces surfaces = Surfaces::without_mirrors);
 
 /// Sets the weights of samples that are on none of the named faces to 0, and those of the others to a sum of 1. Throws as
 /// sim::samples_named.

@@ -141,6 +141,7 @@ const Reference& ReferenceMaker::reference() {
   reference_.paths = sums_.front().paths;
   const std::vector<double>& weights = reference_.judged.weights;
   double of_path = 0;
+  double casts = 0;
   double missed_square = 0;
   double missed_variance = 0;
   double missed = 0;
@@ -151,6 +152,7 @@ const Reference& ReferenceMaker::reference() {
     reference_.irradiance[i] = sums_[i].irradiance() + by_photons.mean;
     reference_.variance[i] = sums_[i].variance() + variance;
     reference_.paths = std::min(reference_.paths, sums_[i].paths);
+    casts += static_cast<double>(sums_[i].casts) / static_cast<double>(sums_[i].paths * samples);
     of_path += weights[i] * sums_[i].variance() * static_cast<double>(sums_[i].paths);
     const double square = squared(by_photons.mean) - variance;
     missed_square += weights[i] * square;
@@ -158,6 +160,7 @@ const Reference& ReferenceMaker::reference() {
     missed += weights[i] * by_photons.mean;
     mean += weights[i] * reference_.irradiance[i];
   }
+  reference_.casts_per_path = casts;
   const double square = reference_.mean_square();
   if (square > 0) {
     // light that no photon brought to the samples is bounded, not absent

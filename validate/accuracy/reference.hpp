@@ -38,6 +38,7 @@ struct Reference {
   bool stopped = false;           ///< by a stop request, or the time limit: the error is larger than asked for
   Estimate missed_squared = {};   ///< mean square of the light that backward paths miss, relative to B²
   double missed_mean = 0;         ///< mean of it, relative to the mean irradiance
+  double casts_per_path = 0;      ///< rays that a path casts, with those of the other side
   double path_noise_squared = 0;  ///< noise² of one backward path for each sample, on each side, relative to B²
 
   [[nodiscard]] ReferenceValues values() const {

@@ -12,7 +12,7 @@
 /// What long work has found so far, in a JSON file.
 namespace detp::validate {
 
-inline constexpr int checkpoint_version = 5;
+inline constexpr int checkpoint_version = 6;
 
 class CheckpointFile {
  public:

@@ -36,7 +36,8 @@ void check(const RayBatch& batch) {
 FoundBatch found_batch(const RayBatch& made, const sim::Outcome& found, double make_seconds) {
   if (found.stopped) throw sim::Stopped("stopped during a batch");
   FoundBatch batch{{found.irradiance, made.photons, made.rays.rays.size()}, found, make_seconds, made.light};
-  for (double& irradiance : batch.batch.irradiance) irradiance *= made.scale;
+  for (auto* values : {&batch.batch.irradiance, &batch.outcome.standard_error, &batch.outcome.upper_bound})
+    for (double& value : *values) value *= made.scale;
   return batch;
 }
 
@@ -51,6 +52,7 @@ ExecutedUntil execute_until(const FindBatch& find, std::vector<double> weights, 
     all.make_seconds += found->make_seconds;
     all.light += found->light;
     const sim::Outcome& outcome = found->outcome;
+    if (!outcome.standard_error.empty()) all.errors.add(found->batch, outcome);
     add_block(outcome, all.outcome);
     all.outcome.hits.resize(outcome.hits.size());
     for (std::size_t disc = 0; disc < outcome.hits.size(); ++disc) all.outcome.hits[disc] += outcome.hits[disc];

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "batch_errors.hpp"
 #include "detp/sim/geometry/paths.hpp"
 #include "detp/sim/photons/light_ledger.hpp"
 #include "detp/sim/search/outcome.hpp"
@@ -34,7 +35,7 @@ using NextRays = std::function<std::optional<RayBatch>(std::uint64_t rays)>;
 /// A batch whose rays have been searched.
 struct FoundBatch {
   Batch batch;
-  sim::Outcome outcome;     ///< its irradiance is that of the batch
+  sim::Outcome outcome;     ///< its irradiance is that of the rays, errors and bounds are those of the batch
   double make_seconds = 0;  ///< for making the rays
   sim::LightLedger light = {};
 };
@@ -48,6 +49,7 @@ using FindBatch = std::function<std::optional<FoundBatch>(std::uint64_t rays, st
 struct ExecutedUntil {
   UntilResult result;
   sim::Outcome outcome;         ///< hits, counts and seconds of all batches; no irradiance
+  BatchErrors errors = {};      ///< empty unless the searches have standard errors
   double make_seconds = 0;      ///< for making the rays
   sim::LightLedger light = {};  ///< of all batches
 };

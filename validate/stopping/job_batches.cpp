@@ -8,7 +8,6 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/estimate/surface.hpp"
-#include "detp/validate/accuracy/judged_samples.hpp"
 
 namespace detp::validate {
 namespace {
@@ -79,11 +78,11 @@ RayBatch JobBatches::at(const Place& place, std::uint64_t rays) {
   return {more_, photons, powers_add_up(job_) ? 1 / photons : 1, more_.light};
 }
 
-std::vector<double> weights_of(const Job& job) {
+std::vector<double> weights_of(const Job& job, Surfaces surfaces) {
   if (!job.scene || job.scene->mesh.triangles.empty()) return weights_by_area(job.discs);
   const bool of_samples =
       std::ranges::equal(job.scene->samples, job.discs, {}, &sim::Sample::position, &sim::Disc::centre);
-  return of_samples ? area_weights(*job.scene) : weights_by_area(job.discs);
+  return of_samples ? area_weights(*job.scene, surfaces) : weights_by_area(job.discs);
 }
 
 }  // namespace detp::validate

@@ -9,6 +9,7 @@
 
 #include "detp/sim/estimate/estimator.hpp"
 #include "detp/sim/technique/searcher.hpp"
+#include "detp/validate/accuracy/judged_samples.hpp"
 #include "detp/validate/job/job.hpp"
 #include "execute_until.hpp"
 
@@ -86,6 +87,6 @@ class JobSearch {
 void require_batches(sim::Estimator estimator);
 
 /// Weights of the job's discs for errors: the area around the scene's samples (area_weights), else the discs' own.
-[[nodiscard]] std::vector<double> weights_of(const Job& job);
+[[nodiscard]] std::vector<double> weights_of(const Job& job, Surfaces surfaces = Surfaces::without_mirrors);
 
 }  // namespace detp::validate

@@ -14,7 +14,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Vectors, cull, test)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SphereCounts, rebuilds, tests, listed)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(HitBatches, count, rays, hits, squares)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Phases, prepare, order, build, search)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Outcome, hits, total_hits, counts, vectors, spheres, batches, seconds)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Outcome, hits, total_hits, counts, vectors, spheres, batches, seconds,
+                                   standard_error, upper_bound)
 }  // namespace detp::sim
 
 namespace detp::validate {
@@ -23,7 +24,12 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairedBatches::State, unit, sums, pending, pe
                                    products_of_squares, squares_of_products)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UntilState, batches, rays, tests, looks, stage_rays, stage_is_test, stage_is_last,
                                    stage_batches)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ExecutedUntil, outcome, make_seconds, light)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BatchErrors::State, unit, squares, largest, heaviest, unhit, most, photons)
+
+void to_json(nlohmann::json& json, const BatchErrors& errors) { json = errors.state(); }
+void from_json(const nlohmann::json& json, BatchErrors& errors) { errors.set_state(json.get<BatchErrors::State>()); }
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ExecutedUntil, outcome, errors, make_seconds, light)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Batch, irradiance, photons, rays)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FoundBatch, batch, outcome, make_seconds, light)
 

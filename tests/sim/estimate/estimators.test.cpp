@@ -196,13 +196,14 @@ TEST_SUITE("estimators") {
   TEST_CASE("variable radius: many hits make small discs, few hits large ones, within the limits") {
     const std::vector<Disc> discs(5, Disc{{0, 0, 0}, {0, 0, 1}, 2});
     const std::vector<std::uint64_t> hits{9, 39, 2, 0, 4999};
-    const auto changed = discs_of_pilot(discs, hits);
+    const auto changed = discs_of_pilot(discs, hits, usual_hits(hits));
     // median of 2, 9, 39, 4999: the upper middle, 39
     CHECK(changed[0].radius == doctest::Approx(4));
     CHECK(changed[1].radius == doctest::Approx(2));
     CHECK(changed[3].radius == doctest::Approx(2 * most_growth));
     CHECK(changed[4].radius == doctest::Approx(2 / most_growth));
-    CHECK(discs_of_pilot(discs, std::vector<std::uint64_t>(5, 0))[0].radius == 2);
+    const std::vector<std::uint64_t> none(5, 0);
+    CHECK(discs_of_pilot(discs, none, usual_hits(none))[0].radius == 2);
   }
 
   TEST_CASE("variable radius: photons in order of their light are no worse, and none is left out") {

@@ -170,7 +170,7 @@ TEST_SUITE("plans of accuracy") {
   TEST_CASE("a check with other noise counts by its rays, and the plan ranks again") {
     const AccuracyPilot pilot = [] {
       AccuracyPilot one = made_pilot(0.1);
-      one.rays = 1e5;
+      one.estimators.front().noise_rays = 1e5;
       return one;
     }();
     const AccuracyPlan plan = plan_accuracy(pilot, {Kind::noise, 0.05});

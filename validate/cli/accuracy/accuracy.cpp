@@ -147,7 +147,7 @@ Question take_question(sim::Scene& scene, const AccuracyOptions& options, const 
     for (const double one : radii) question.relative.push_back(one / middle);
   }
   if (options.faces.empty()) return question;
-  if (question.weights.empty()) question.weights = validate::area_weights(scene);
+  if (question.weights.empty()) question.weights = validate::area_weights(scene, validate::Surfaces::all);
   validate::keep_named(question.weights, scene.mesh, scene.samples, options.faces, stop);
   return question;
 }
@@ -341,6 +341,9 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
   };
   for (const std::string& notice : scene.notices) say(notice, "");
   if (!question.notice.empty()) say(question.notice, "warning: ");
+  if (const std::string notice = validate::mirror_notice(validate::mirror_share(scene.mesh));
+      question.weights.empty() && !notice.empty())
+    say(notice, "");
   std::optional<sim::Progress> stopped = find_answer(answer, scene, target, pilot, most_rays, options.check, saved);
   for (const std::string& warning : sim::light_warnings(answer.pilot.light, scene.lights)) say(warning, "warning: ");
   pilot.seed += seeds_apart;

@@ -9,13 +9,13 @@ namespace detp::validate {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(GrowingSeconds, fixed, per_ray, per_ray_squared)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SettingPilot, setting, scale, noise_squared_times_rays, bias_squared, mean_bias,
                                    rare_photons, seconds, settled)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EstimatorPilot, estimator, settings, runs, by_reference)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EstimatorPilot, estimator, settings, runs, by_reference, noise_rays, rehearsed)
 NLOHMANN_JSON_SERIALIZE_ENUM(ReferenceKind, {{ReferenceKind::known, "known"},
                                              {ReferenceKind::backward, "backward"},
                                              {ReferenceKind::both, "both"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PilotJudge, kind, paths, photons, samples, error, seconds, missed_mean)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AccuracyPilot, estimators, trace, photons_per_ray, mean_square, sample_distance,
-                                   judge, rays, seconds, light)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(AccuracyPilot, estimators, trace, photons_per_ray, casts_per_path, mean_square,
+                                   judged_square, sample_distance, judge, rays, seconds, light)
 
 }  // namespace detp::validate
 

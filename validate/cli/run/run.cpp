@@ -154,8 +154,8 @@ void check_options(const RunOptions& options, std::size_t rows) {
     throw std::invalid_argument("--standard-error is a column of --per-disc FILE; give that too");
   if (options.target.given()) {
     static_cast<void>(options.target.target());
-    if (options.pairs || options.standard_error || options.repeat > 0)
-      throw std::invalid_argument("a run until an error has no --pairs, --standard-error and --repeat");
+    if (options.pairs || options.repeat > 0)
+      throw std::invalid_argument("a run until an error has no --pairs and --repeat");
   }
   if (!options.target.given() && !options.target.faces.empty())
     throw std::invalid_argument(
@@ -368,6 +368,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
         run_one(options, job, costs.of(options.candidate.engine), common, stop, rows.next(progress.report()));
     if (!common.answers()) return AnswerRow{};
     for (const std::string& one : answer_warnings(job, found)) note(common, "warning: " + one);
+    if (found.until && found.until->mirror_share > 0) note(common, validate::mirror_notice(found.until->mirror_share));
     stopped = write_hits(options, job, found, common, stop);
     not_reached = found.until && found.until->result.reason != validate::StopReason::target;
     if (expected == 1) text = to_text(job, found, common.screen(), options.verbose);

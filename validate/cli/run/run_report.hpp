@@ -33,6 +33,7 @@ struct UntilAnswer {
   std::optional<BiasEstimate> bias = {};
   double seconds = 0;           ///< with choosing, the bias's pilot, tracing and building
   sim::LightLedger light = {};  ///< of all photons that were traced
+  double mirror_share = 0;      ///< of the area, that has no part in the error
 
   /// Noise and bias together; without a known bias the noise.
   [[nodiscard]] validate::NoiseInterval error() const {

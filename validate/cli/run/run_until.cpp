@@ -141,6 +141,7 @@ Json key_of(const RunAnswer& answer, const validate::Job& job, const UntilAnswer
           {"target of", until.total ? "noise and bias" : "noise"},
           {"confidence", until.confidence},
           {"limit of rays", most_rays},
+          {"standard errors", answer.standard_error},
           {"facing", job.front_facing ? "front" : "any"},
           {"materials", fmt::format("{}", fmt::join(faces.materials, ","))},
           {"groups", fmt::format("{}", fmt::join(faces.groups, ","))},
@@ -163,8 +164,8 @@ std::optional<validate::SavedRun> read(const validate::CheckpointFile& file, con
 /// Weights of the job's discs, of which some may not count.
 std::vector<double> weights_in_question(const validate::Job& job, const sim::FaceNames& faces,
                                         const std::stop_token& stop) {
-  std::vector<double> weights = validate::weights_of(job);
-  if (faces.empty()) return weights;
+  if (faces.empty()) return validate::weights_of(job);
+  std::vector<double> weights = validate::weights_of(job, validate::Surfaces::all);
   if (!job.scene || job.scene->mesh.triangles.empty())
     throw std::invalid_argument("--material and --group name faces of a scene; there is none");
   std::vector<sim::Sample> samples;
@@ -213,8 +214,9 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   answer.candidate = chosen.candidate;
   answer.threads = chosen.threads;
   const auto search_here = [&] {
-    return validate::JobSearch(job, answer.estimator, answer.candidate,
-                               {.engine = answer.engine, .stop = stop, .threads = answer.threads});
+    sim::RunOptions search{.engine = answer.engine, .stop = stop, .threads = answer.threads};
+    search.standard_error = answer.standard_error;
+    return validate::JobSearch(job, answer.estimator, answer.candidate, search);
   };
   if (ranks != nullptr && ranks->rank() != 0) {
     validate::JobSearch search = search_here();
@@ -223,6 +225,8 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   }
   constexpr double most_pilot_rays = 4e6;
   const std::vector<double> weights = weights_in_question(job, options.faces, stop);
+  if (options.faces.empty() && job.scene && std::ranges::find(weights, 0.0) != weights.end())
+    until.mirror_share = validate::mirror_share(job.scene->mesh);
   if (until.total && has_bias(job))
     until.bias = bias_of(job, answer.estimator, target.error, most_pilot_rays, threads, weights, stop);
   else if (until.total && job.rays_from_file && answer.estimator == sim::Estimator::disc)
@@ -252,8 +256,13 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   if (found.result.reason == validate::StopReason::time) batches.roll_call();
   sim::Outcome& outcome = answer.run.outcome = std::move(found.outcome);
   outcome.irradiance = std::move(found.result.irradiance);
+  for (const sim::PowerError& error : found.errors.of(outcome.irradiance, found.result.photons)) {
+    outcome.standard_error.push_back(error.standard_error);
+    outcome.upper_bound.push_back(error.upper_bound);
+  }
   if (validate::powers_add_up(job))
-    for (double& irradiance : outcome.irradiance) irradiance *= found.result.photons;
+    for (auto* values : {&outcome.irradiance, &outcome.standard_error, &outcome.upper_bound})
+      for (double& value : *values) value *= found.result.photons;
   outcome.seconds.order += search.built().seconds.order;
   outcome.seconds.build += search.built().seconds.build;
   outcome.progress = {found.result.rays, std::max(found.result.rays, static_cast<std::uint64_t>(limit)), "rays"};
@@ -282,6 +291,7 @@ Json to_json(const UntilAnswer& until) {
             {"stopped_because", name(result.reason)},
             {"until_seconds", until.seconds}};
   if (result.share_bound) json["share_bound"] = *result.share_bound;
+  if (until.mirror_share > 0) json["mirror_share"] = until.mirror_share;
   if (until.bias) {
     json["bias_estimate"] = std::sqrt(std::max(0.0, until.bias->squared.mean));
     json["bias_squared"] = {{"value", until.bias->squared.mean},

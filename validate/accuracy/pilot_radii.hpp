@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "detp/sim/scene/scene.hpp"
+
+namespace detp::validate {
+
+/// Radii of variable-radius at some of a scene's samples, from the hits of other runs: a tenth of so short a run would not find the radii of a long
+/// one. The median of the hits is that of discs at all samples of the scene, as in a run.
+class PilotRadii {
+ public:
+  /// `places`: of samples that count, rising. `relative`: radii of the scene's samples over the setting's; none: 1.
+  PilotRadii(const sim::Scene& scene, std::span<const std::size_t> places, std::span<const double> relative);
+
+  /// At which hits are needed: those that count come first.
+  [[nodiscard]] const std::vector<sim::Sample>& samples() const { return samples_; }
+  [[nodiscard]] std::span<const double> relative() const { return relative_; }
+
+  /// Radii over `radius` at the samples that count (sim::discs_of_pilot), from the hits of discs at samples().
+  [[nodiscard]] std::vector<double> of(double radius, std::span<const std::uint64_t> hits) const;
+
+ private:
+  std::size_t counting_;
+  std::vector<sim::Sample> samples_;
+  std::vector<double> relative_;
+};
+
+}  // namespace detp::validate
