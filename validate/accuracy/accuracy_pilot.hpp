@@ -82,7 +82,7 @@ struct AccuracyPilot {
 
 inline constexpr double usual_pilot_rays = 40'000;
 /// Of the price of planning, for pilots; the rest is for rehearsals.
-inline constexpr double share_of_pilots = 0.7;
+inline constexpr double share_of_pilots = 0.85;
 
 struct AccuracyPilotOptions {
   std::vector<sim::Estimator> estimators;  ///< empty: all

@@ -352,6 +352,15 @@ class Planner {
     return *std::ranges::find(found_.pilot.estimators, point.estimator, &EstimatorPilot::estimator);
   }
 
+  /// Seconds of the price that are kept for a rehearsal of the answer.
+  [[nodiscard]] double reserved() const {
+    const AccuracyPoint& best = found_.plan->answer;
+    if (!PilotMaker::can_rehearse(best.estimator)) return 0;
+    const auto size = maker_.rehearsal_size(found_.pilot, best.estimator, best.scale(), most_share * best.rays,
+                                            (1 - share_of_pilots) * price());
+    return size ? size->seconds : 0;
+  }
+
   /// Until the bias is known well enough, or would cost too much.
   void make_pilots() {
     constexpr double enough = 0.2;           // of the target, for half the width of the bias's interval
@@ -379,8 +388,7 @@ class Planner {
         if (more < 1.4) return;
         next_rays = by_rays ? more * rays : rays;
         next_paths = by_paths ? static_cast<std::uint64_t>(more * static_cast<double>(paths)) : paths;
-        if (predicted_ + maker_.predicted_seconds(next_rays, next_paths, &found_.pilot) <= share_of_pilots * price())
-          break;
+        if (predicted_ + maker_.predicted_seconds(next_rays, next_paths, &found_.pilot) <= price() - reserved()) break;
       }
       rays = next_rays;
       paths = next_paths;
@@ -389,8 +397,7 @@ class Planner {
 
   /// Until the noise of the answer is that of a rehearsal, or the price is spent: another way may be better then.
   void rehearse() {
-    constexpr double near = 1.3;         // scales
-    constexpr double most_share = 0.25;  // of the answer's rays
+    constexpr double near = 1.3;  // scales
     for (;;) {
       const AccuracyPoint& best = found_.plan->answer;
       const double rehearsed = estimator_of(best).rehearsed;
@@ -405,6 +412,7 @@ class Planner {
     }
   }
 
+  static constexpr double most_share = 0.25;  // of the answer's rays, in a rehearsal
   AccuracyTarget target_;
   AccuracyPilotOptions options_;
   double most_rays_;
