@@ -107,7 +107,9 @@ std::string accuracy_summary(const std::vector<AccuracyRow>& rows) {
   std::vector<std::string> estimators;
   for (const AccuracyRow& row : rows) {
     if (std::ranges::find(scenes, row.scene) == scenes.end()) scenes.push_back(row.scene);
-    if (std::ranges::find(estimators, row.estimator) == estimators.end()) estimators.push_back(row.estimator);
+    if (row.estimator != name(sim::Estimator::gather) &&
+        std::ranges::find(estimators, row.estimator) == estimators.end())
+      estimators.push_back(row.estimator);
   }
   const auto table = [&](const std::string& title, const auto& error) {
     std::string text =

@@ -281,6 +281,54 @@ TEST_SUITE("identity") {
     CHECK(*most > 3 * *least);  // a corner has one or two triangles, the inside six
     const std::vector<double> equal = area_weights(sim::open_scene({.name = "@cornell", .samples = 6000}));
     CHECK(equal.front() == doctest::Approx(1.0 / 6000));
+    CHECK(mirror_share(cornell.mesh) == 0);
+    CHECK(mirror_notice(0).empty());
+  }
+
+  TEST_CASE("mirrors and glass do not count, unless they are asked for or there is nothing else") {
+    for (const std::optional<std::size_t> samples : {std::optional<std::size_t>(), std::optional<std::size_t>(20'000)}) {
+      sim::Scene scene = sim::open_scene({.name = "@caustic", .samples = samples});
+      const double share = mirror_share(scene.mesh);
+      CHECK(share > 0.05);
+      CHECK(share < 0.5);
+      const std::vector<double> all = area_weights(scene, Surfaces::all);
+      const std::vector<double> weights = area_weights(scene);
+      double left = 0;  // of the area of all
+      for (std::size_t i = 0; i < weights.size(); ++i) left += weights[i] > 0 ? all[i] : 0;
+      if (!samples) CHECK(left == doctest::Approx(1 - share).epsilon(0.05));
+      CHECK(left < 1);  // more samples than vertices are not spread by area: glass has more vertices
+      CHECK(left > 0.5);
+      CHECK(std::accumulate(weights.begin(), weights.end(), 0.0) == doctest::Approx(1).epsilon(1e-12));
+      for (sim::Material& one : scene.mesh.materials.all) one.diffuse = 0, one.specular = 1, one.glass = 0;
+      CHECK(area_weights(scene) == all);
+    }
+  }
+
+  TEST_CASE("a rehearsal knows the noise of runs, also of variable-radius, which a short pilot does not") {
+    sim::Scene scene = sim::open_scene({.name = "@cornell", .samples = {}});
+    constexpr double rays = 1e5;
+    constexpr double radius = 0.03;
+    for (const auto estimator :
+         {sim::Estimator::disc, sim::Estimator::variable_radius, sim::Estimator::triangle_hits}) {
+      CAPTURE(name(estimator));
+      const AccuracyPilotOptions options{.estimators = {estimator}, .radii = {radius}};
+      PilotMaker maker(scene, options);
+      AccuracyPilot pilot = maker.make(4000, 16);
+      const AccuracySetting setting{estimator, uses_radius(estimator) ? radius : 0};
+      const double scale = uses_radius(estimator) ? radius : 1;
+      CHECK_FALSE(maker.rehearsal_size(pilot, estimator, scale, 1000, 10));  // fewer rays than the pilot
+      const auto size = maker.rehearsal_size(pilot, estimator, scale, rays / 2, 10);
+      REQUIRE(size);
+      CHECK(size->samples == scene.samples.size());
+      maker.rehearse(pilot, setting, scale, *size, rays);
+      CHECK(pilot.estimators.front().rehearsed == scale);
+      const double promised = std::sqrt(pilot.estimators.front().noise_squared(scale, rays));
+      const AccuracyPoint point{.estimator = estimator, .rays = rays, .radius = setting.radius};
+      double square = 0;
+      const auto runs = rerun_accuracy(scene, point, pilot.mean_square, 1, 8, options);
+      for (const AccuracyRerun& run : runs) square += run.noise * run.noise / static_cast<double>(runs.size());
+      CHECK(std::sqrt(square) == doctest::Approx(promised).epsilon(0.05));
+    }
   }
 }
 

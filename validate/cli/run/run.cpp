@@ -437,8 +437,8 @@ Command run_command(CLI::App& program) {
   app->add_option("--per-disc", options->per_disc,
                   "write disc,hits,irradiance as CSV, in input order, and the vertex in the mesh (-1: none)");
   app->add_flag("--standard-error", options->standard_error,
-                "add to --per-disc the standard error of each irradiance, for independent photons; where too few "
-                "photons hit a disc (fewer than 10), an upper bound (95 %) of the irradiance instead");
+                "add to --per-disc the standard error of each irradiance, for independent photons, and where a few "
+                "photons bring most of it, an upper bound (95 %) of the irradiance");
   app->add_option("--pairs", options->pairs, "write the hits as CSV ray,disc");
   app->add_option("--target-noise", options->target.noise,
                   "run until the noise (root mean square over the discs by area, relative to the root mean square "

@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
+#include <sstream>
 
 #include "support/csv_answer.hpp"
 #include "support/run_support.hpp"
@@ -28,6 +30,35 @@ TEST_SUITE("run until") {
     const Json again = result_of(command + two + " --threads 2");
     CHECK(again["noise"] == json["noise"]);
     CHECK(content_of(two) == content_of(one));
+  }
+
+  TEST_CASE("standard errors beside a noise: wherever two photons hit, and together as large as the noise") {
+    const ScratchFolder folder;
+    const std::string file = folder.path("discs.csv");
+    const std::string command =
+        "run @cornell --target-noise 15% --calibration none --standard-error --per-disc " + file + " --threads ";
+    const Json json = result_of(command + "1");
+    const std::string one = content_of(file);
+    CHECK(result_of(command + "2")["noise"] == json["noise"]);
+    CHECK(content_of(file) == one);
+    double squares = 0;
+    double variances = 0;
+    std::istringstream lines(one);
+    std::string line;
+    REQUIRE(std::getline(lines, line));
+    REQUIRE(line == "disc,hits,irradiance,standard_error,upper_bound,standard_error_weak,vertex");
+    while (std::getline(lines, line)) {
+      double disc = 0;
+      double hits = 0;
+      double irradiance = 0;
+      double error = 0;
+      const int read = std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", &disc, &hits, &irradiance, &error);
+      if (hits > 2) REQUIRE(read == 4);  // two hits may be of one photon
+      squares += irradiance * irradiance - error * error;
+      variances += error * error;
+    }
+    // weighted equally here, and by area there
+    CHECK(std::sqrt(variances / squares) == doctest::Approx(json["noise"].get<double>()).epsilon(0.1));
   }
 
   TEST_CASE("lines, a workload of numbers, and rays of a file run until a noise, too; they have no bias") {
