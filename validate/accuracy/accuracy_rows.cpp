@@ -9,6 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "detp/sim/estimate/estimator.hpp"
+
 namespace detp::validate {
 namespace {
 
