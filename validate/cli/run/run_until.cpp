@@ -256,6 +256,7 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   if (found.result.reason == validate::StopReason::time) batches.roll_call();
   sim::Outcome& outcome = answer.run.outcome = std::move(found.outcome);
   outcome.irradiance = std::move(found.result.irradiance);
+  outcome.hits.resize(job.discs.size());  // none, if the run was stopped in its first batch
   for (const sim::PowerError& error : found.errors.of(outcome.irradiance, found.result.photons)) {
     outcome.standard_error.push_back(error.standard_error);
     outcome.upper_bound.push_back(error.upper_bound);
