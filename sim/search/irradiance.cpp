@@ -26,7 +26,7 @@ void resize_results(std::size_t discs, bool errors, Outcome& outcome) {
 double heaviest_of_bound(double above, double squares) {
   for (std::size_t k = 0; k < more_photons.size(); ++k) {
     const double w = above / more_photons[k];
-    const double as_heavy = std::min(fewest_photons - 1, std::ceil(squares / (w * w) - 1e-9));
+    const double as_heavy = squares > 0 ? std::min(fewest_photons - 1, std::ceil(squares / (w * w) - 1e-9)) : 0;
     if (as_heavy <= static_cast<double>(k)) return w;
   }
   return above / more_photons.back();

@@ -39,7 +39,7 @@ class AccuracyCosts {
   [[nodiscard]] GrowingSeconds estimate(sim::Estimator estimator, double samples, const SettingCounts& counts) const;
   /// Building what estimators need of the mesh: once for all runs.
   [[nodiscard]] double surfaces(sim::Estimator estimator) const;
-  /// One backward path, on each side, that casts so many rays. In ten scenes, 0.7 to 1.7 times as long: most where rays graze fine surfaces.
+  /// One backward path, on each side, that casts so many rays. In ten scenes, 0.7 to 1.6 times as long: most where rays graze fine surfaces.
   [[nodiscard]] double path(double casts) const;
   /// Building what traces rays.
   [[nodiscard]] double caster() const;

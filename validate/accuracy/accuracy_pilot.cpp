@@ -36,7 +36,7 @@ class PilotMaker::Runs {
       : of_(of),
         options_(of.options_),
         before_(before),
-        radii_of_others_(of.scene_, of.judged_.places, of.options_.relative) {
+        radii_of_others_(of.scene_, of.judged_.places, of.judged_.population, of.options_.relative) {
     pilot_.sample_distance = of.edge_;
     pilot_.trace = of.costs_.trace();
     radii_ = of.radii();

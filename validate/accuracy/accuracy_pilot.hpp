@@ -26,7 +26,8 @@ struct SettingPilot {
   Estimate noise_squared_times_rays;  ///< noise² falls with the number of rays as 1/rays
   Estimate bias_squared;              ///< does not; may be below 0
   Estimate mean_bias;                 ///< signed, relative to the mean irradiance
-  double rare_photons = 1e9;    ///< so many photons, if all brought the same, would bring the noise² of the pilot
+  /// So many photons, if all brought the same, would bring the noise² of the pilot; of a rehearsal, 1 over its relative variance.
+  double rare_photons = 1e9;
   GrowingSeconds seconds = {};  ///< of an estimate at all samples, without tracing
   bool settled = false;         ///< known well enough: a further pilot leaves it as it is
 };

@@ -63,6 +63,9 @@ struct AccuracyPlan {
 /// Throws std::invalid_argument unless an error is in (0, 1), seconds are > 0, and there may be from 1 to 1e18 rays.
 void check(const AccuracyTarget& target, double most_rays);
 
+/// Ways whose predicted seconds differ by less than this factor are about as fast.
+inline constexpr double clearly_slower = 1.3;
+
 /// Whether the point has the target's error, but for rounding; of a time, always.
 [[nodiscard]] bool reaches(const AccuracyPoint& point, const AccuracyTarget& target);
 
@@ -82,9 +85,9 @@ struct PilotedPlan {
 };
 
 /// The same with pilots in the scene, until the half width of the bias's interval is at most a fifth of the target (of a time: of the total
-/// error), and noise² is known to 10 %. The next pilot has up to four times the rays, or backward paths, or both, as one or both decide. No pilot is
-/// made if all together would exceed the price: options.price times the answer's seconds, at least options.least_price, both as predicted. So the plan
-/// does not depend on the clock. options.rays and paths are those of the first pilot. Throws as make_accuracy_pilot; sim::Stopped if there was no
+/// error). The next pilot has up to four times the rays, or backward paths, or both, as one or both decide. Then the answer is rehearsed
+/// (PilotMaker::rehearse), and so is another one that is better with the noise found. Nothing is made that would exceed the price with all before:
+/// options.price times the answer's seconds, at least options.least_price, both as predicted. So the plan does not depend on the clock. options.rays and paths are those of the first pilot. Throws as make_accuracy_pilot; sim::Stopped if there was no
 /// pilot yet.
 [[nodiscard]] PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, AccuracyPilotOptions options,
                                         double most_rays = 1e9);

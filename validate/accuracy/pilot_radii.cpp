@@ -6,11 +6,12 @@
 
 namespace detp::validate {
 
-PilotRadii::PilotRadii(const sim::Scene& scene, std::span<const std::size_t> places, std::span<const double> relative)
+PilotRadii::PilotRadii(const sim::Scene& scene, std::span<const std::size_t> places, std::size_t population,
+                       std::span<const double> relative)
     : counting_(places.size()) {
   constexpr std::size_t most_for_median = 1000;
   std::vector<std::size_t> all(places.begin(), places.end());
-  if (all.size() < scene.samples.size()) {
+  if (population < scene.samples.size()) {
     const std::vector<double> equal(scene.samples.size(), 1.0);
     const JudgedSamples everywhere = judged_samples(scene, equal, most_for_median);
     all.insert(all.end(), everywhere.places.begin(), everywhere.places.end());

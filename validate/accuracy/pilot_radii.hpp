@@ -13,8 +13,10 @@ namespace detp::validate {
 /// one. The median of the hits is that of discs at all samples of the scene, as in a run.
 class PilotRadii {
  public:
-  /// `places`: of samples that count, rising. `relative`: radii of the scene's samples over the setting's; none: 1.
-  PilotRadii(const sim::Scene& scene, std::span<const std::size_t> places, std::span<const double> relative);
+  /// `places`: of samples that count, or of a random part of `population` such samples, rising. `relative`: radii of the scene's samples over the
+  /// setting's; none: 1.
+  PilotRadii(const sim::Scene& scene, std::span<const std::size_t> places, std::size_t population,
+             std::span<const double> relative);
 
   /// At which hits are needed: those that count come first.
   [[nodiscard]] const std::vector<sim::Sample>& samples() const { return samples_; }

@@ -51,7 +51,7 @@ Estimate mean_of(const std::vector<double>& values) {
 class PilotMaker::Rehearsal {
  public:
   Rehearsal(PilotMaker& of, const AccuracySetting& setting, double rays, const std::vector<std::size_t>& places)
-      : of_(of), setting_(setting), radii_(of.scene_, places, of.options_.relative) {
+      : of_(of), setting_(setting), radii_(of.scene_, places, of.judged_.population, of.options_.relative) {
     for (const std::size_t place : places) {
       samples_.push_back(of.scene_.samples[place]);
       if (!of.options_.relative.empty()) relative_.push_back(of.options_.relative[place]);
@@ -183,9 +183,10 @@ void PilotMaker::rehearse(AccuracyPilot& pilot, const AccuracySetting& setting, 
   const double all = sum_over(more, squares);
   const double at_judged = sum_over(judged_, squares);
   const Estimate found = mean_of(noise);
+  const auto own = std::ranges::find(pilot.estimators, setting.estimator, &EstimatorPilot::estimator);
+  own->rehearsed = scale;
   if (!(all > 0 && at_judged > 0 && found.mean > 0)) return;  // too little light to know better
   const double mean_square = pilot.judged_square * all / at_judged;
-  const auto own = std::ranges::find(pilot.estimators, setting.estimator, &EstimatorPilot::estimator);
   const double times_rays = found.mean / mean_square * rehearsal.rays() / parts;
   const double ratio = times_rays / own->noise_squared(scale, 1);
   const double error = found.standard_error / found.mean;
@@ -195,7 +196,6 @@ void PilotMaker::rehearse(AccuracyPilot& pilot, const AccuracySetting& setting, 
     one.rare_photons = std::max(1.0, std::pow(std::max(error, 1e-4), -2));
   }
   own->noise_rays = rehearsal.rays();
-  own->rehearsed = scale;
   if (options_.reference == nullptr) pilot.mean_square = mean_square;  // else runs are compared at the judged samples
 }
 

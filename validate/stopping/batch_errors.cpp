@@ -29,7 +29,8 @@ void BatchErrors::add(const Batch& batch, const sim::Outcome& found_batch) {
   double ratio = 1;
   for (std::size_t i = 0; state_.most > 0 && i < discs; ++i)
     if (!(batch.irradiance[i] > 0) && state_.unhit[i] > 0) {
-      ratio = sim::heaviest_of_bound(batch.photons * found_batch.upper_bound[i], 0) / state_.unhit[i];
+      ratio =
+          sim::heaviest_of_bound(in_units(batch.photons * found_batch.upper_bound[i]), 0) / in_units(state_.unhit[i]);
       break;
     }
   for (std::size_t i = 0; i < discs; ++i) {
@@ -70,8 +71,6 @@ std::vector<sim::PowerError> BatchErrors::of(std::span<const double> irradiance,
     const double sum = photons * irradiance[i];
     const double heaviest = state_.heaviest[i] * state_.most;
     sim::PowerError& error = all.emplace_back(sim::error_of_power(sum, sums, heaviest, photons));
-    if (error.standard_error < sim::unbounded)  // of more than nine photons, some weak
-      error.upper_bound = std::max(error.upper_bound, sum + 1.6448536269514722 * error.standard_error);
     if (!(state_.squares[i] > 0) && !(state_.heaviest[i] > 0)) error.upper_bound = sim::unbounded;
     error.standard_error /= photons;
     error.upper_bound /= photons;

@@ -341,9 +341,9 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
   };
   for (const std::string& notice : scene.notices) say(notice, "");
   if (!question.notice.empty()) say(question.notice, "warning: ");
-  if (const std::string notice = validate::mirror_notice(validate::mirror_share(scene.mesh));
-      question.weights.empty() && !notice.empty())
-    say(notice, "");
+  if (question.weights.empty())
+    if (const std::string notice = validate::mirror_notice(validate::mirror_share(scene.mesh)); !notice.empty())
+      say(notice, "");
   std::optional<sim::Progress> stopped = find_answer(answer, scene, target, pilot, most_rays, options.check, saved);
   for (const std::string& warning : sim::light_warnings(answer.pilot.light, scene.lights)) say(warning, "warning: ");
   pilot.seed += seeds_apart;

@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "accuracy_plan.hpp"
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+
+namespace detp::validate {
+namespace {
+
+/// Whether an estimator is out of the question: far from the target, or from the fastest.
+bool is_out(const AccuracyPoint& way, const AccuracyPlan& plan) {
+  constexpr double far = 4;
+  if (plan.target.kind == AccuracyTarget::Kind::seconds) return way.total_low > plan.answer.total_high;
+  if (plan.reached && way.seconds > far * plan.answer.seconds) return true;
+  return way.bias_low > plan.target.value && way.bias > plan.answer.bias;
+}
+
+/// Of the interval of the bias.
+double half_width(const AccuracyPoint& point) { return 0.5 * (point.bias_high - point.bias_low); }
+
+/// The answer, or the rival that is faster by the prediction, left out by a bias that may yet be below the target, and least known.
+const AccuracyPoint& least_known(const AccuracyPlan& plan, double wanted) {
+  const AccuracyPoint* least = &plan.answer;
+  if (plan.target.kind == AccuracyTarget::Kind::seconds) return *least;
+  for (const AccuracyPoint& rival : plan.rivals) {
+    const bool may_be_better = rival.bias > plan.target.value && rival.bias_low < plan.target.value &&
+                               rival.seconds * clearly_slower < plan.answer.seconds;
+    if (may_be_better && half_width(rival) > std::max(wanted, half_width(*least))) least = &rival;
+  }
+  return *least;
+}
+
+/// Settles all settings of estimators that are out, and of the others those that are not beside the setting in question.
+void settle(AccuracyPilot& pilot, const AccuracyPlan& plan) {
+  std::vector<AccuracyPoint> ways = plan.rivals;
+  ways.push_back(plan.answer);
+  for (EstimatorPilot& one : pilot.estimators) {
+    const auto way = std::ranges::find(ways, one.estimator, &AccuracyPoint::estimator);
+    const bool out = way == ways.end() || is_out(*way, plan);
+    for (std::size_t i = 0; i < one.settings.size(); ++i) {
+      const bool below = i + 1 < one.settings.size() && one.settings[i + 1].scale <= way->radius;
+      const bool above = i > 0 && one.settings[i - 1].scale >= way->radius;
+      one.settings[i].settled = out || (uses_radius(one.estimator) && (below || above));
+    }
+  }
+}
+
+/// Pilots of one question, within the price of its answer.
+class Planner {
+ public:
+  Planner(sim::Scene& scene, const AccuracyTarget& target, const AccuracyPilotOptions& options, double most_rays)
+      : target_(target), options_(options), most_rays_(most_rays), maker_(scene, options) {}
+
+  PilotedPlan plan() && {
+    try {
+      make_pilots();
+      rehearse();
+    } catch (const sim::Stopped&) {
+      if (!found_.plan) throw;
+      found_.stopped = true;
+    }
+    found_.pilot.seconds = watch_.seconds();
+    return {std::move(found_.pilot), std::move(*found_.plan), found_.stopped};
+  }
+
+ private:
+  [[nodiscard]] double price() const {
+    return std::max(options_.least_price, options_.price * found_.plan->answer.seconds);
+  }
+
+  [[nodiscard]] const EstimatorPilot& estimator_of(const AccuracyPoint& point) const {
+    return *std::ranges::find(found_.pilot.estimators, point.estimator, &EstimatorPilot::estimator);
+  }
+
+  /// Seconds of the price that are kept for a rehearsal of the answer.
+  [[nodiscard]] double reserved() const {
+    const AccuracyPoint& best = found_.plan->answer;
+    if (!PilotMaker::can_rehearse(best.estimator)) return 0;
+    const auto size = maker_.rehearsal_size(found_.pilot, best.estimator, best.scale(), most_share * best.rays,
+                                            (1 - share_of_pilots) * price());
+    return size ? size->seconds : 0;
+  }
+
+  /// Until the bias is known well enough, or would cost too much.
+  void make_pilots() {
+    constexpr double enough = 0.2;           // of the target, for half the width of the bias's interval
+    constexpr double deciding_share = 0.25;  // of the variance of bias²
+    constexpr double most_pilot_rays = 4e7;
+    double rays = maker_.first_rays();
+    std::uint64_t paths = maker_.first_paths();
+    for (bool first = true;; first = false) {
+      predicted_ += maker_.predicted_seconds(rays, paths, first ? nullptr : &found_.pilot);
+      found_.pilot = maker_.make(rays, paths, first ? nullptr : &found_.pilot);
+      found_.plan = plan_accuracy(found_.pilot, target_, most_rays_);
+      const AccuracyPoint& best = found_.plan->answer;
+      const double wanted = enough * (target_.kind == AccuracyTarget::Kind::seconds ? best.total : target_.value);
+      const AccuracyPoint& open = least_known(*found_.plan, wanted);
+      if (half_width(open) <= wanted || rays > most_pilot_rays) return;
+      const double by_reference = estimator_of(open).by_reference;
+      const bool by_paths = by_reference > deciding_share && options_.reference == nullptr;
+      const bool by_rays = by_reference < 1 - deciding_share;
+      if (!by_rays && !by_paths) return;
+      settle(found_.pilot, *found_.plan);
+      double next_rays = 0;
+      std::uint64_t next_paths = 0;
+      double more = 4;
+      for (;; more /= std::sqrt(2)) {  // as much as the price allows
+        if (more < 1.4) return;
+        next_rays = by_rays ? more * rays : rays;
+        next_paths = by_paths ? static_cast<std::uint64_t>(more * static_cast<double>(paths)) : paths;
+        if (predicted_ + maker_.predicted_seconds(next_rays, next_paths, &found_.pilot) <= price() - reserved()) break;
+      }
+      rays = next_rays;
+      paths = next_paths;
+    }
+  }
+
+  /// Until the noise of the answer is that of a rehearsal, or the price is spent: another way may be better then.
+  void rehearse() {
+    constexpr double near = 1.3;  // scales
+    for (;;) {
+      const AccuracyPoint& best = found_.plan->answer;
+      const double rehearsed = estimator_of(best).rehearsed;
+      if (!PilotMaker::can_rehearse(best.estimator)) return;
+      if (rehearsed > 0 && best.scale() < near * rehearsed && rehearsed < near * best.scale()) return;
+      const auto size = maker_.rehearsal_size(found_.pilot, best.estimator, best.scale(), most_share * best.rays,
+                                              price() - predicted_);
+      if (!size) return;
+      predicted_ += size->seconds;
+      maker_.rehearse(found_.pilot, best.setting(), best.scale(), *size, best.rays);
+      found_.plan = plan_accuracy(found_.pilot, target_, most_rays_);
+    }
+  }
+
+  static constexpr double most_share = 0.25;  // of the answer's rays, in a rehearsal
+  AccuracyTarget target_;
+  AccuracyPilotOptions options_;
+  double most_rays_;
+  sim::Stopwatch watch_;
+  PilotMaker maker_;
+  struct {
+    AccuracyPilot pilot;
+    std::optional<AccuracyPlan> plan;
+    bool stopped = false;
+  } found_;
+  double predicted_ = 0;  // seconds of all pilots
+};
+
+}  // namespace
+
+PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, AccuracyPilotOptions options,
+                          double most_rays) {
+  check(target, most_rays);
+  return Planner(scene, target, options, most_rays).plan();
+}
+
+}  // namespace detp::validate
