@@ -286,7 +286,8 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("mirrors and glass do not count, unless they are asked for or there is nothing else") {
-    for (const std::optional<std::size_t> samples : {std::optional<std::size_t>(), std::optional<std::size_t>(20'000)}) {
+    for (const std::optional<std::size_t> samples :
+         {std::optional<std::size_t>(), std::optional<std::size_t>(20'000)}) {
       sim::Scene scene = sim::open_scene({.name = "@caustic", .samples = samples});
       const double share = mirror_share(scene.mesh);
       CHECK(share > 0.05);
