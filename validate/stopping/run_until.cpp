@@ -18,8 +18,12 @@ constexpr double most_growth = 7;
 constexpr double least_growth = 0.1;
 constexpr double safety = 1.05;        // of the rays of the next stage, so that one more look is rarely needed
 constexpr double share_of_bias = 0.9;  // of the square error: a larger bias leaves too little for the noise
-constexpr double share_of_looks =
-    0.1;  // of the error that tests may make: of those after stages that were not planned to reach the target
+// Shares of the error that tests may make: of those after stages that were not planned to reach the target, and of those when a run that
+// can go on is stopped.
+constexpr double share_of_looks = 0.05;
+constexpr double share_of_stops = 0.05;
+constexpr double least_error = 1e-12;  // of a test: 1 - error must be below 1
+constexpr double share_of_tests = 1 - share_of_looks - share_of_stops;
 
 double squared(double x) { return x * x; }
 
@@ -44,13 +48,14 @@ class UntilRun {
         result_.noise = batches_.noise(target_.confidence);
         if (bias_ >= share_of_bias * squared(target_.error)) return finished(StopReason::bias);
         const bool last = stage_.is_last || ended;
-        if (passes_test(last)) return finished(StopReason::target);
+        if (passes_test(last ? error_left() : error_allowed(stage_.is_test))) return finished(StopReason::target);
         if (last) return finished(StopReason::rays);
         begin(next_stage());
       }
     } catch (const sim::Stopped&) {
+      const bool passes = passes_stop();
       if (options_.save) options_.save([this] { return state(); });
-      return finished(passes_test(true) ? StopReason::target : StopReason::time);
+      return finished(passes ? StopReason::target : StopReason::time);
     }
   }
 
@@ -74,31 +79,41 @@ class UntilRun {
     result_.rays = state.rays;
     result_.tests = state.tests;
     result_.looks = state.looks;
+    result_.stops = state.stops;
     result_.noise = batches_.noise(target_.confidence);
     stage_ = {state.stage_rays, state.stage_is_test, state.stage_is_last, state.stage_batches};
   }
 
   [[nodiscard]] UntilState state() const {
-    return {batches_.state(), result_.rays,   result_.tests,  result_.looks,
+    return {batches_.state(), result_.rays,   result_.tests,  result_.looks, result_.stops,
             stage_.rays,      stage_.is_test, stage_.is_last, stage_.batches};
   }
 
   /// The error of the next test.
   [[nodiscard]] double error_allowed(bool planned) const {
-    if (planned) return (1 - share_of_looks) * error_of_test(target_.confidence, result_.tests + 1);
+    if (planned) return share_of_tests * error_of_test(target_.confidence, result_.tests + 1);
     return share_of_looks * (1 - target_.confidence) * std::exp2(-result_.looks - 1);
   }
-  /// What the tests so far have left of 1 - confidence: Σ error_of_test is (1 - confidence)(1 - 3^-tests).
+  /// What tests and looks so far have left of 1 - confidence: Σ error_of_test is (1 - confidence)(1 - 3^-tests).
   [[nodiscard]] double error_left() const {
     return (1 - target_.confidence) *
-           ((1 - share_of_looks) * std::pow(3.0, -result_.tests) + share_of_looks * std::exp2(-result_.looks));
+           (share_of_tests * std::pow(3.0, -result_.tests) + share_of_looks * std::exp2(-result_.looks));
   }
 
   [[nodiscard]] double noise_allowed() const { return std::sqrt(std::max(0.0, squared(target_.error) - bias_)); }
 
-  bool passes_test(bool last) {
-    result_.noise = batches_.noise(1 - (last ? error_left() : error_allowed(stage_.is_test)));
+  bool passes_test(double error) {
     ++(stage_.is_test ? result_.tests : result_.looks);
+    return passes(error);
+  }
+  /// A run that can go on keeps what later tests may err with: it ends as one that was not stopped.
+  bool passes_stop() {
+    const double stops = share_of_stops * (1 - target_.confidence) * std::exp2(-result_.stops);
+    ++result_.stops;
+    return passes(options_.save ? stops / 2 : stops + error_left());
+  }
+  bool passes(double error) {
+    result_.noise = batches_.noise(1 - std::max(error, least_error));
     return result_.noise.high <= noise_allowed();
   }
 

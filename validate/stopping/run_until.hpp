@@ -51,6 +51,7 @@ struct UntilState {
   std::uint64_t rays = 0;
   int tests = 0;
   int looks = 0;
+  int stops = 0;
   double stage_rays = 0;            ///< of the stage under way
   bool stage_is_test = false;       ///< it is planned to reach the target
   bool stage_is_last = false;       ///< there may be no more rays after it
@@ -80,6 +81,7 @@ struct UntilResult {
   std::uint64_t rays = 0;
   int tests = 0;  ///< after stages that were planned to reach the target
   int looks = 0;  ///< after other stages
+  int stops = 0;  ///< on stop requests
   StopReason reason = StopReason::target;
   /// If no photon has met any disc: with the target's confidence the share of photons that meet one is smaller.
   std::optional<double> share_bound = {};
@@ -91,7 +93,8 @@ struct UntilResult {
 /// Adds batches in stages, each of 32 batches or, if they would be too large, more. Each stage has as many rays as will reach the target
 /// by what the stages before know, but at most seven times and at least a tenth of the rays so far. After each stage the run
 /// may end. Test t after a stage that was planned to reach the target may err with 0.9 (1 - confidence) 2/3ᵗ, look l after another one with
-/// 0.1 (1 - confidence)/2ˡ, and the last one, at the end of the rays or on a stop request, with what is left: all together with 1 - confidence.
+/// 0.05 (1 - confidence)/2ˡ, the one at the end of the rays with what these have left, and stop request s of a run that can go on
+/// (`save`) with 0.05 (1 - confidence)/2ˢ, of another one with all that is left: all together with 1 - confidence.
 /// The result's interval is that of the last test.
 ///
 /// Asymptotic, as PairedBatches. If no photon met a disc among n: the bound -ln(1 - confidence)/n of their share.

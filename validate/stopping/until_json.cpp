@@ -22,8 +22,8 @@ namespace detp::validate {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairedBatches::State, unit, sums, pending, pending_photons, photons, pairs, earlier,
                                    products_of_squares, squares_of_products)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UntilState, batches, rays, tests, looks, stage_rays, stage_is_test, stage_is_last,
-                                   stage_batches)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UntilState, batches, rays, tests, looks, stops, stage_rays, stage_is_test,
+                                   stage_is_last, stage_batches)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BatchErrors::State, unit, squares, largest, heaviest, unhit, most, photons)
 
 void to_json(nlohmann::json& json, const BatchErrors& errors) { json = errors.state(); }

@@ -95,9 +95,41 @@ int kept_by_naive_rule(Light light, double target, int runs) {
   return kept;
 }
 
+/// A run that is stopped after each stretch of batches, looked at, and gone on with until it says that the target is reached.
+UntilResult stopped_often(Light& light, double target, int stretch) {
+  int left = 0;
+  const NextBatch next = [&](std::uint64_t rays, std::uint64_t) {
+    if (left-- == 0) throw sim::Stopped("stopped");
+    return std::optional(light.batch(rays));
+  };
+  UntilOptions options{.first_rays = 3200};
+  UntilState state;
+  options.save = [&](const std::function<UntilState()>& now) { state = now(); };
+  while (true) {
+    left = stretch;
+    UntilResult result = run_until(next, equal(light.discs), {.error = target}, options);
+    if (result.reason != StopReason::time) return result;
+    options.resume = state;
+  }
+}
+
 }  // namespace
 
 TEST_SUITE("statistical") {
+  TEST_CASE("a run that is stopped and gone on with often errs as seldom as one that is not") {
+    Light light{.discs = 1, .hit = 0.1, .spread = 1, .random = std::mt19937_64{3}};
+    constexpr int runs = 400;
+    int kept = 0;
+    int stops = 0;
+    for (int run = 0; run < runs; ++run) {
+      const UntilResult result = stopped_often(light, 0.1, 1);
+      kept += error_of(result.irradiance, light.truth()) <= 0.1 ? 1 : 0;
+      stops += result.stops;
+    }
+    CHECK(stops > 40 * runs);
+    CHECK(kept >= 366);  // of a binomial 0.95, less happens in 0.1 %
+  }
+
   TEST_CASE("the error at the end is below the target in 95 % of the runs, and the naive rule's is not") {
     constexpr int runs = 200;
     constexpr int least = 182;  // of a binomial 0.95, less happens in 0.1 %
