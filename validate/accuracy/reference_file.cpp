@@ -108,7 +108,7 @@ double finite(const Json& value, const char* what) {
   return number;
 }
 
-void add_sample(const Json& numbers, Reference& reference) {
+void add_sample(const Json& numbers, std::size_t samples_of_scene, Reference& reference) {
   if (!numbers.is_array() || numbers.size() != numbers_of_sample)
     throw std::invalid_argument(fmt::format("a sample needs {} numbers", numbers_of_sample));
   sim::Sample sample;
@@ -122,7 +122,7 @@ void add_sample(const Json& numbers, Reference& reference) {
   if (reference.variance.back() < 0) throw std::invalid_argument("a variance is below 0");
   reference.judged.weights.push_back(finite(numbers[8], "a weight"));
   reference.judged.places.push_back(numbers[9]);
-  if (reference.judged.places.back() >= reference.judged.population)
+  if (reference.judged.places.back() >= samples_of_scene)
     throw std::invalid_argument("a sample is not one of the scene's");
 }
 
@@ -167,8 +167,9 @@ void write_reference(const std::string& path, const Reference& reference, const 
   file.commit();
 }
 
-Reference read_reference(const std::string& path, const ReferenceKey& key) {
+Reference read_reference(const std::string& path, const sim::Scene& scene, const ReferenceOptions& options) {
   try {
+    const ReferenceKey key = reference_key(scene, options);
     const Json json = Json::parse(sim::read_file(path, most_bytes_of_reference));
     if (json.at("schema").at("name") != reference_schema || json.at("schema").at("version") != version)
       throw sim::FileError(path, "is not a reference of this version of detp");
@@ -183,7 +184,7 @@ Reference read_reference(const std::string& path, const ReferenceKey& key) {
     reference.missed_mean = finite(json.at("missed_mean"), "missed light");
     reference.path_noise_squared = finite(json.at("path_noise_squared"), "a noise");
     reference.seconds = finite(json.at("seconds"), "a number of seconds");
-    for (const Json& numbers : json.at("samples")) add_sample(numbers, reference);
+    for (const Json& numbers : json.at("samples")) add_sample(numbers, scene.samples.size(), reference);
     const std::size_t samples = std::min(key.samples, reference.judged.population);
     if (reference.irradiance.size() != samples)
       throw std::invalid_argument(fmt::format("it has {} samples, not {}", reference.irradiance.size(), samples));
@@ -198,10 +199,9 @@ Reference read_reference(const std::string& path, const ReferenceKey& key) {
 }
 
 Reference kept_reference(const std::string& path, const sim::Scene& scene, const ReferenceOptions& options) {
-  const ReferenceKey key = reference_key(scene, options);
-  if (std::filesystem::exists(path)) return read_reference(path, key);
+  if (std::filesystem::exists(path)) return read_reference(path, scene, options);
   Reference reference = make_reference(scene, options);
-  if (!options.stop.stop_requested()) write_reference(path, reference, key);
+  if (!options.stop.stop_requested()) write_reference(path, reference, reference_key(scene, options));
   return reference;
 }
 

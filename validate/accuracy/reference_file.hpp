@@ -23,8 +23,9 @@ struct ReferenceKey {
 /// Throws sim::FileError.
 void write_reference(const std::string& path, const Reference& reference, const ReferenceKey& key);
 
-/// Throws sim::FileError for a file that cannot be read, is malformed, or has another key; it says what differs.
-[[nodiscard]] Reference read_reference(const std::string& path, const ReferenceKey& key);
+/// Throws sim::FileError for a file that cannot be read, is malformed, or is of another scene or other options; it says what differs.
+[[nodiscard]] Reference read_reference(const std::string& path, const sim::Scene& scene,
+                                       const ReferenceOptions& options);
 
 /// Reads the file. If there is none, makes the reference and writes the file; a reference that a stop request cut short is not
 /// written, one that reached its time limit is. Throws as read_reference and make_reference.

@@ -1,6 +1,7 @@
 #include "detp/validate/accuracy/reference_file.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <fstream>
@@ -57,6 +58,20 @@ TEST_SUITE("references in files") {
     }
   }
 
+  TEST_CASE("a reference of a scene with mirrors, whose samples do not count, is read again") {
+    const ReferencePath file;
+    const sim::Scene scene = sim::open_scene({.name = "@caustic", .samples = {}});
+    ReferenceOptions options = quick();
+    options.error = 0.5;
+    const auto made = validate::kept_reference(file.path, scene, options);
+    CHECK(made.judged.population < scene.samples.size());
+    // As of a larger reference, whose last sample is the scene's last.
+    file.replace(fmt::format("\"population\": {}", made.judged.population),
+                 fmt::format("\"population\": {}", made.judged.places.back()));
+    CHECK_THROWS_WITH_AS(static_cast<void>(validate::kept_reference(file.path, scene, options)), Contains("altered"),
+                         sim::FileError);
+  }
+
   TEST_CASE("a reference that a stop request cut short leaves no file") {
     const ReferencePath file;
     std::stop_source stop;
@@ -105,6 +120,7 @@ TEST_SUITE("bad input") {
         {"\"samples\": [\n", "\"samples\": [[1, 2, 3],\n", "a sample needs 10 numbers"},
         {"6.283185307179586,0.0,", "6.283185307179586,-1.0,", "a variance is below 0"},
         {"6.283185307179586,0.0,", "6.283185307179586,1e999,", "is not a reference"},
+        {"]\n  ]\n}", "9]\n  ]\n}", "a sample is not one of the scene's"},
         {"  ]\n}", "", "is not a reference"}};
     for (const std::array<std::string, 3>& damage : damages) {
       const std::string& to = damage[1];

@@ -12,6 +12,10 @@ timed() {
   "$detp" "$@" --quiet --format csv |
     sed 's/"[^"]*"//g' | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i } NR == 2 { print $at["seconds"] + $at["trace_seconds"] }'
 }
+# A column of the answer in a table.
+of_answer() {
+  awk -F, -v column="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i } $2 == "answer" { print $at[column] }' "$1"
+}
 mkdir -p "$folder"
 for scene in "$@"; do
   name=$(basename "$scene" | tr -d @)
@@ -24,13 +28,22 @@ for scene in "$@"; do
     [ -s "$kept" ] || "$detp" accuracy "$scene" --target-"${target%:*}" "${target#*:}" --reference "$folder/$name.reference" \
       --check --seeds "$seeds" --time-limit "$seconds" --quiet --format csv -o "$kept" || [ $? = 3 ]
     [ -s "$kept.runs" ] && continue
-    command=$(awk -F, '$2 == "answer" { print $31 }' "$kept")
-    awk -F, '$2 == "answer" { exit $22 >= 6 }' "$kept" || continue
+    seconds_of_answer=$(of_answer "$kept" predicted_seconds)
+    [ "${seconds_of_answer%.*}" -lt 6 ] 2> /dev/null || continue
+    command=$(of_answer "$kept" command)
     for seed in 5001 5002 5003; do
-      awk -F, -v OFS=, -v seed=$seed -v seconds="$(timed ${command#detp } --seed $seed)" \
-        '$2 == "answer" { print $1, "command", $3, $4, ",,,,,,,,,,,,,,,,,,", seed, ",,", seconds, ",," }' "$kept"
+      took=$(timed ${command#detp } --seed $seed)
+      awk -F, -v OFS=, -v seed=$seed -v took="$took" '
+        NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i }
+        $2 == "answer" {
+          for (i = 5; i <= NF; ++i) $i = ""
+          $2 = "command"; $at["seed"] = seed; $at["measured_seconds"] = took; print
+        }' "$kept"
     done >> "$kept.runs"
   done
 done
-# An answer that was stopped has three columns more.
-cat "$folder"/*.csv "$folder"/*.runs | cut -d, -f1-31 | awk -F, 'NR == 1 || $2 == "answer" || $2 == "rival" || $2 == "run" || $2 == "command"' | sed "s,^${DETP_SCENES:-/}/,,; s,${DETP_SCENES:-/}/,\$DETP_SCENES/,"
+# An answer that was stopped has columns behind "command".
+cat "$folder"/*.csv "$folder"/*.runs | awk -F, -v OFS=, '
+  NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "command") last = i }
+  NR == 1 || $2 == "answer" || $2 == "rival" || $2 == "run" || $2 == "command" { NF = last; print }' |
+  sed "s,^${DETP_SCENES:-/}/,,; s,${DETP_SCENES:-/}/,\$DETP_SCENES/,"
