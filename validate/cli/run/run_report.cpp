@@ -218,7 +218,8 @@ Json run_cells(const Json& inputs, const RunAnswer& answer, const Json& json) {
     cells[what + "_low"] = json[what + "_interval"][0];
     cells[what + "_high"] = json[what + "_interval"][1];
   }
-  for (const char* alone : {"target", "stop_tests", "share_bound", "bias_by", "bias_seconds", "radius_for_target"})
+  for (const char* alone :
+       {"target", "stop_tests", "share_bound", "mirror_share", "bias_by", "bias_seconds", "radius_for_target"})
     cells.erase(alone);
   if (json.contains("hits_estimate") && !json["hits_estimate"].is_null()) {
     cells["hits_estimate"] = json["hits_estimate"]["value"];
