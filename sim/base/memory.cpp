@@ -140,12 +140,6 @@ void return_freed_memory() {
 #endif
 }
 
-void return_arrays_at_once() {
-#ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
-#endif
-}
-
 void require_memory(std::string_view what, double bytes) {
   const double budget = memory_budget();
   if (bytes <= budget) return;

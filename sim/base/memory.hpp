@@ -36,10 +36,6 @@ void require_memory(std::string_view what, double bytes);
 /// Returns to the system what was freed, but is kept by the C library for later; takes some milliseconds. Does nothing unless that is glibc.
 void return_freed_memory();
 
-/// From now on, arrays of 1 MiB and more go back to the system as soon as they are freed. By default, once the C library has freed an
-/// array of up to 32 MiB, it takes later ones of that size from its heap, where they leave gaps. Does nothing unless that is glibc.
-void return_arrays_at_once();
-
 /// The smallest limit of the process's own memory cgroup and of the groups around it; infinite if no limit is set.
 /// `own_groups` is text in the format of /proc/self/cgroup; the groups' files are under `root` (/sys/fs/cgroup).
 [[nodiscard]] double cgroup_limit(const std::string& own_groups, const std::string& root);

@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+#include <sys/types.h>
 
 #include <cmath>
 #include <cstdio>
@@ -21,6 +25,9 @@
 #include "program.hpp"
 #include "stop_report.hpp"
 
+/// Of jemalloc, with which the command is linked, but not all that link this library.
+extern "C" [[gnu::weak]] int mallctl(const char* name, void* old, std::size_t* old_size, void* value, std::size_t size);
+
 namespace detp::cli {
 namespace {
 
@@ -40,10 +47,19 @@ void print(const std::string& text, const std::optional<std::string>& output, co
   file.commit();
 }
 
+/// Freed memory goes back to the system, in small pages: slower, but the peak is what the work needs. (Main's allocator keeps it.)
+void return_memory_at_once() {
+#ifdef PR_SET_THP_DISABLE
+  prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0);
+#endif
+  ssize_t none = 0;
+  if (mallctl != nullptr) static_cast<void>(mallctl("arena.0.dirty_decay_ms", nullptr, nullptr, &none, sizeof none));
+}
+
 void set_memory_limit(const std::string& size) {
   try {
     sim::set_memory_limit(sim::parse_bytes(size));
-    sim::return_arrays_at_once();
+    return_memory_at_once();
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("--memory-limit {}", error.what()));
   }
