@@ -27,7 +27,7 @@ int main() {
   };
 
   // What an operation costs on this machine: as detp calibrate stored it, or measured now, roughly.
-  const auto stored = detp::validate::find_calibration();
+  const auto stored = detp::validate::stored_calibration();
   const detp::CostTable costs = stored ? stored->simd : detp::validate::calibrate({.seconds = 1}).simd.costs;
 
   trace_photons();

@@ -17,7 +17,7 @@ double log_of(double count) { return std::log2(std::max(2.0, count)); }
 
 /// Stored costs of the plain box tree over the built-in ones: above 1 on a slower machine. Where nothing is stored, measured_ratio.
 double machine_ratio() {
-  const auto stored = find_calibration();
+  const auto stored = stored_calibration();
   if (!stored) return measured_ratio;
   const UnitCosts here = stored->plain[Technique::box_tree];
   const UnitCosts usual = built_in_unit_costs(Engine::plain)[Technique::box_tree];

@@ -152,10 +152,12 @@ std::string calibration_text(const Calibration& calibration) {
       {"costs", {{"simd", to_json(calibration.simd.costs)}, {"plain", to_json(calibration.plain.costs)}}},
       {"threads", {{"simd", threads_json(calibration.simd.costs)}, {"plain", threads_json(calibration.plain.costs)}}}};
   json["checksum"] = checksum_of(json);
+  if (calibration.probe) json["probe"] = true;
   return json.dump(2) + "\n";
 }
 
 std::string default_calibration_path() { return cache_path("calibration.json"); }
+std::string probe_path() { return cache_path("probe.json"); }
 
 void write_calibration(const std::string& path, const Calibration& calibration) {
   write_cache_file(path, calibration_text(calibration));
@@ -188,8 +190,13 @@ std::optional<StoredCalibration> find_calibration(const std::string& path, std::
   return std::nullopt;
 }
 
+std::optional<StoredCalibration> stored_calibration(std::string* why_not) {
+  if (auto stored = find_calibration(default_calibration_path(), why_not)) return stored;
+  return find_calibration(probe_path());
+}
+
 CostTable stored_unit_costs(Engine engine) {
-  const auto stored = find_calibration();
+  const auto stored = stored_calibration();
   return stored ? stored->of(engine) : built_in_unit_costs(engine);
 }
 
@@ -204,6 +211,7 @@ StoredCalibration parse_calibration(const std::string& text, const std::string& 
     require_possible("left_out_median_error", stored.left_out_median_error, most_error);
     stored.processor_share = json.at("processor_share");
     require_share("processor_share", stored.processor_share);
+    stored.probe = json.value("probe", false);
     stored.plain = costs_of(json, Engine::plain, stored);
     stored.simd = costs_of(json, Engine::simd, stored);
     if (json.value("checksum", "") != checksum_of(json))

@@ -22,6 +22,9 @@ struct StoredCalibration : CalibrationQuality {
 /// no home either.
 [[nodiscard]] std::string default_calibration_path();
 
+/// detp/probe.json beside it.
+[[nodiscard]] std::string probe_path();
+
 /// The content of a calibration's file: JSON with the key of this machine and today's date.
 [[nodiscard]] std::string calibration_text(const Calibration& calibration);
 
@@ -37,8 +40,11 @@ std::string save_calibration(const std::string& path, const Calibration& calibra
 
 /// The calibration in the file, if there is one of this machine and program. Else nullopt, and in *why_not, unless null, the
 /// reason with the path; "" if there is no such file.
-[[nodiscard]] std::optional<StoredCalibration> find_calibration(const std::string& path = default_calibration_path(),
+[[nodiscard]] std::optional<StoredCalibration> find_calibration(const std::string& path,
                                                                 std::string* why_not = nullptr);
+
+/// The one that detp calibrate stored, else the one of a probe (probe_once); `why_not` is that of the first.
+[[nodiscard]] std::optional<StoredCalibration> stored_calibration(std::string* why_not = nullptr);
 
 /// The stored costs of this machine, for PlanOptions::costs; the built-in ones if there are none that can be used.
 [[nodiscard]] CostTable stored_unit_costs(Engine engine = Engine::simd);

@@ -8,6 +8,7 @@ namespace detp::validate {
 
 std::string CalibrationQuality::doubt() const {
   std::string why;
+  if (probe) return why;
   if (left_out_median_error > doubtful_error)
     why = fmt::format("its median error is {:.2g} %, more than {:.2g} %", 100 * left_out_median_error,
                       100 * doubtful_error);
@@ -23,6 +24,7 @@ double CalibrationQuality::relative_error() const {
 }
 
 bool CalibrationQuality::is_better_than(const CalibrationQuality& other) const {
+  if (probe != other.probe) return other.probe;
   if (doubt().empty() != other.doubt().empty()) return doubt().empty();
   return relative_error() < other.relative_error();
 }

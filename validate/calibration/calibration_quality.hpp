@@ -13,6 +13,8 @@ inline constexpr double doubtful_share = 0.9;
 struct CalibrationQuality {
   double left_out_median_error = 0;  ///< of all runs on one thread, by fits to other workloads
   double processor_share = 1;        ///< processor time over wall time of these runs; other programs took the rest
+  bool probe =
+      false;  ///< built-in costs, scaled by a few short searches (probe.hpp); never doubtful, because it promises little
 
   /// Why predictions by these costs are doubtful, in words; empty if they are not.
   [[nodiscard]] std::string doubt() const;
@@ -21,7 +23,7 @@ struct CalibrationQuality {
   /// distribution with this median error. At least the share of the time that other programs took.
   [[nodiscard]] double relative_error() const;
 
-  /// One without doubt is better than a doubtful one; else the one with the smaller relative error.
+  /// A calibration is better than a probe, and one without doubt than a doubtful one; else the one with the smaller relative error.
   [[nodiscard]] bool is_better_than(const CalibrationQuality& other) const;
 };
 

@@ -18,6 +18,7 @@
 #include "detp/sim/photons/light_notes.hpp"
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
+#include "detp/validate/calibration/probe.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/options/value_lists.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
@@ -334,6 +335,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
     if (options.seeds) validate::serve_reruns(scene, pilot);
     return {};
   }
+  if (common.ranks == nullptr) validate::probe_once(stop);
   KeptAccuracy saved(options, scene, target, most_rays, common.seed, stop);
   const auto say = [&](const std::string& text, const std::string& before) {
     note(common, before + text);

@@ -6,6 +6,7 @@
 
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
+#include "detp/validate/calibration/probe.hpp"
 #include "unit_cost_option.hpp"
 
 namespace detp::cli {
@@ -27,18 +28,20 @@ CostsInUse calibrated(const validate::StoredCalibration& stored, const CommonOpt
              doubt));
   return {.simd = stored.simd,
           .plain = stored.plain,
-          .origin = fmt::format("of each operation: of this machine, calibrated {} (median error {:.2g} %)",
-                                stored.date, 100 * stored.left_out_median_error),
+          .origin = stored.probe
+                        ? "of each operation: built in, scaled by a probe of this machine; detp calibrate knows more"
+                        : fmt::format("of each operation: of this machine, calibrated {} (median error {:.2g} %)",
+                                      stored.date, 100 * stored.left_out_median_error),
           .relative_error = stored.relative_error()};
 }
 
 /// The stored calibration, unless it is missing, broken or of another machine.
 CostsInUse stored_or_built_in(const CommonOptions& common) {
+  if (common.ranks == nullptr) validate::probe_once();  // on several processes, each might find other costs
   std::string why_not;
-  if (const auto stored = validate::find_calibration(validate::default_calibration_path(), &why_not))
-    return calibrated(*stored, common);
+  const auto stored = validate::stored_calibration(&why_not);
   if (!why_not.empty()) note(common, fmt::format("{}; not used; detp calibrate makes a new one", why_not));
-  return built_in();
+  return stored ? calibrated(*stored, common) : built_in();
 }
 
 }  // namespace
@@ -49,9 +52,10 @@ void CostOptions::add_to(CLI::App& command) {
 }
 
 void CostOptions::add_calibration_to(CLI::App& command) {
-  command.add_option("--calibration", calibration_,
-                     "unit costs: none (the built-in ones), auto (those that detp calibrate stored, if any) or a file "
-                     "that it wrote; default: auto");
+  command.add_option(
+      "--calibration", calibration_,
+      "unit costs: none (the built-in ones), auto (those that detp calibrate stored, else by a probe of 0.2 s, kept "
+      "like them) or a file that it wrote; default: auto");
 }
 
 CostsInUse CostOptions::costs(const CommonOptions& common) const {
