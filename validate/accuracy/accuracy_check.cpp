@@ -11,9 +11,11 @@
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/estimate/variable_radius.hpp"
 #include "detp/sim/ranks/farm.hpp"
 #include "detp/validate/base/json_bytes.hpp"
 #include "judged_samples.hpp"
+#include "pilot_radii.hpp"
 
 namespace detp::validate {
 namespace {
@@ -91,17 +93,30 @@ TimedEstimate timed_estimate(ReplicateMaker& maker, const sim::Scene& scene, con
 }
 
 /// Of one run: by the variance of its backward paths, or with the estimate of half of its photons, since the variance of the difference is
-/// that of the whole run.
-double noise_squared(const ReplicateMaker& maker, const JudgedSamples& judged, const AccuracyPoint& point,
-                     const TimedEstimate& whole) {
+/// that of the whole run. Both have the same radii, also of variable-radius: half of the photons alone would make larger ones.
+double noise_squared(const ReplicateMaker& maker, const sim::Scene& scene, const AccuracyPilotOptions& options,
+                     const JudgedSamples& judged, const AccuracyPoint& point, const TimedEstimate& whole) {
   if (!whole.variance.empty())
     return std::inner_product(judged.weights.begin(), judged.weights.end(), whole.variance.begin(), 0.0);
   AccuracySetting of_half = point.setting();
   if (of_half.estimator == sim::Estimator::nearest) of_half.nearest = std::max(3, of_half.nearest / 2);
   const std::uint64_t photons = std::max<std::uint64_t>(1, whole.paths.photon_count / 2);
   const double scale = static_cast<double>(whole.paths.photon_count) / static_cast<double>(photons);
-  const auto half = maker.estimate(first_photons(whole.paths, photons), judged.samples, of_half).irradiance;
-  return square_between(whole.irradiance, half, judged.weights, scale) / std::max(1e-9, scale - 1);
+  std::vector<double> radii;
+  std::vector<double> all = whole.irradiance;
+  if (point.estimator == sim::Estimator::variable_radius) {
+    of_half = {sim::Estimator::disc, point.radius};
+    const PilotRadii by_pilot(scene, judged.places, judged.population, options.relative);
+    const auto first = static_cast<std::uint64_t>(sim::pilot_share * static_cast<double>(whole.paths.photon_count));
+    radii = by_pilot.of(point.radius, maker
+                                          .estimate(first_photons(whole.paths, std::max<std::uint64_t>(1, first)),
+                                                    by_pilot.samples(), of_half, false, by_pilot.relative())
+                                          .hits);
+    all = maker.estimate(whole.paths, judged.samples, of_half, false, radii).irradiance;
+  }
+  const auto half =
+      maker.estimate(first_photons(whole.paths, photons), judged.samples, of_half, false, radii).irradiance;
+  return square_between(all, half, judged.weights, scale) / std::max(1e-9, scale - 1);
 }
 
 /// What a rank makes in a rerun.
@@ -171,7 +186,7 @@ AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, doub
   ReplicateMaker maker(scene, options.front_facing, options.threads, options.stop);
   const JudgedSamples judged = judged_in(scene, options, scene.samples.size());
   const TimedEstimate whole = timed_estimate(maker, scene, judged, point, options.seed);
-  return {.noise = std::sqrt(noise_squared(maker, judged, point, whole) / mean_square),
+  return {.noise = std::sqrt(noise_squared(maker, scene, options, judged, point, whole) / mean_square),
           .seconds = whole.seconds,
           .trace_seconds = whole.trace_seconds,
           .rays = point.estimator == sim::Estimator::gather ? point.rays : static_cast<double>(whole.paths.rays.size()),

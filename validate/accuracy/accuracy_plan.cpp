@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "detp/model/vocabulary/checks.hpp"
@@ -18,6 +19,16 @@ constexpr double share_for_bias = 0.98;  // a total target leaves at least 2 % o
 double square_of(double x) { return x * x; }
 
 double root(double square) { return std::sqrt(std::max(0.0, square)); }
+
+/// The mean of a square that is at least 0, if its estimate is normal: one that is 0 ± s may be s as well, and is 0.8 s in the mean.
+double expected_square(const Estimate& square) {
+  const double error = square.standard_error;
+  if (!(error > 0 && std::isfinite(error))) return std::max(0.0, square.mean);
+  const double x = square.mean / error;
+  if (x < -6) return -error / x;  // as the formula below, without cancellation
+  const double above = 0.5 * std::erfc(-x / std::numbers::sqrt2);
+  return square.mean + error * std::exp(-0.5 * x * x) / (above * std::sqrt(2 * std::numbers::pi));
+}
 
 /// One estimator with what the pilot found of it.
 class Ways {
@@ -52,10 +63,11 @@ class Ways {
     point.mean_bias = mean_bias.mean;
     point.mean_bias_error = mean_bias.standard_error;
     const auto bias_squared = [&](double shift) { return std::max(0.0, bias.mean + shift * bias.standard_error); };
-    const double square = noise_squared + bias_squared(0);
-    const double down =
-        std::hypot(noise_squared - square_of(point.noise_low), bias_squared(0) - bias_squared(-spread_));
-    const double up = std::hypot(square_of(point.noise_high) - noise_squared, bias_squared(spread_) - bias_squared(0));
+    const double expected = expected_square(bias);
+    const double square = noise_squared + expected;
+    const double down = std::hypot(noise_squared - square_of(point.noise_low), expected - bias_squared(-spread_));
+    const double up =
+        std::hypot(square_of(point.noise_high) - noise_squared, std::max(0.0, bias_squared(spread_) - expected));
     point.total = root(square);
     point.total_low = root(square - down);
     point.total_high = root(square + up);
@@ -91,19 +103,20 @@ class Ways {
     return *most_accurate([&](double scale) { return seconds_of(scale).rays_in(seconds); });
   }
 
-  [[nodiscard]] double least_bias() const { return root(own_.bias_squared(least_biased()).mean); }
+  [[nodiscard]] double least_bias() const { return root(expected_square(own_.bias_squared(least_biased()))); }
 
   /// The setting of the least bias, with so many rays that noise adds a twentieth to the square.
   [[nodiscard]] AccuracyPoint nearest_to_floor() const {
     constexpr double share_of_noise = 0.05;
     const double scale = least_biased();
-    const double bias = own_.bias_squared(scale).mean;
+    const double bias = expected_square(own_.bias_squared(scale));
     return at(scale, bias > 0 ? own_.noise_squared(scale, 1) / (share_of_noise * bias) : most_rays_);
   }
 
  private:
   [[nodiscard]] double least_biased() const {
-    return *std::ranges::min_element(scales_, {}, [&](double scale) { return own_.bias_squared(scale).mean; });
+    return *std::ranges::min_element(scales_, {},
+                                     [&](double scale) { return expected_square(own_.bias_squared(scale)); });
   }
 
   [[nodiscard]] bool gathers() const { return own_.estimator == sim::Estimator::gather; }
@@ -132,7 +145,7 @@ class Ways {
   [[nodiscard]] std::optional<AccuracyPoint> reach_total(double total) const {
     std::optional<AccuracyPoint> best;
     for (const double scale : scales_) {
-      const double bias = std::max(0.0, own_.bias_squared(scale).mean);
+      const double bias = expected_square(own_.bias_squared(scale));
       if (bias > share_for_bias * total * total) continue;
       const double rays = own_.noise_squared(scale, 1) / (total * total - bias);
       if (rays > most_rays_) continue;

@@ -26,8 +26,10 @@ const AccuracyPoint& least_known(const AccuracyPlan& plan, double wanted) {
   const AccuracyPoint* least = &plan.answer;
   if (plan.target.kind == AccuracyTarget::Kind::seconds) return *least;
   for (const AccuracyPoint& rival : plan.rivals) {
-    const bool may_be_better = rival.bias > plan.target.value && rival.bias_low < plan.target.value &&
-                               rival.seconds * clearly_slower < plan.answer.seconds;
+    const bool left_out =
+        plan.target.kind == AccuracyTarget::Kind::total ? !reaches(rival, plan.target) : rival.bias > plan.target.value;
+    const bool may_be_better =
+        left_out && rival.bias_low < plan.target.value && rival.seconds * clearly_slower < plan.answer.seconds;
     if (may_be_better && half_width(rival) > std::max(wanted, half_width(*least))) least = &rival;
   }
   return *least;

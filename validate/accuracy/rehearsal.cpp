@@ -171,12 +171,20 @@ void PilotMaker::rehearse(AccuracyPilot& pilot, const AccuracySetting& setting, 
     }
     return sum;
   };
-  for (const Part& part : rehearsal.all(answer_rays)) {
+  const std::vector<Part> made = rehearsal.all(answer_rays);
+  for (const Part& part : made) {
     noise.push_back(sum_over(more, part.variance));
     for (std::size_t i = 0; i < squares.size(); ++i) {
       means[i] += part.irradiance[i] / parts;
       squares[i] -= part.variance[i] / (parts * parts);
     }
+  }
+  std::vector<double>
+      errors;  // square of a part's own error, which is that of one run: few photons make it large or small
+  for (const Part& part : made) {
+    std::vector<double> deviations(places.size());
+    for (std::size_t i = 0; i < deviations.size(); ++i) deviations[i] = std::pow(part.irradiance[i] - means[i], 2);
+    errors.push_back(sum_over(more, deviations));
   }
   for (std::size_t i = 0; i < squares.size(); ++i) squares[i] += means[i] * means[i];
   // What the photons find at more samples and at those of the judge has the same blur: the ratio is that of what is true.
@@ -190,9 +198,13 @@ void PilotMaker::rehearse(AccuracyPilot& pilot, const AccuracySetting& setting, 
   const double times_rays = found.mean / mean_square * rehearsal.rays() / parts;
   const double ratio = times_rays / own->noise_squared(scale, 1);
   const double error = found.standard_error / found.mean;
+  const Estimate of_errors = mean_of(errors);
+  const double of_run = of_errors.mean > 0 ? std::sqrt(parts) * of_errors.standard_error / of_errors.mean : 0;
+  const double both =
+      std::hypot(error, of_run) / std::sqrt(static_cast<double>(own->runs) + 1);  // noise_squared_error()
   for (SettingPilot& one : own->settings) {
     const double changed = one.noise_squared_times_rays.mean * ratio;
-    one.noise_squared_times_rays = {changed, changed * error};
+    one.noise_squared_times_rays = {changed, changed * both};
     one.rare_photons = std::max(1.0, std::pow(std::max(error, 1e-4), -2));
   }
   own->noise_rays = rehearsal.rays();

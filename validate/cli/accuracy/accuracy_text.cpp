@@ -146,10 +146,14 @@ std::string answer_words(const AccuracyAnswer& answer) {
   const AccuracyTarget& target = answer.plan.target;
   std::string text;
   if (!answer.plan.reached) {
-    text =
-        fmt::format("{} {} is not reached: the least bias of the estimators tried is {}. Nearest: {} in {:.2g} s, {}. ",
-                    percent(target.value), target.kind == AccuracyTarget::Kind::noise ? "noise" : "error",
-                    percent(answer.plan.floor), percent(best.total), best.seconds, way(answer, best));
+    const std::string what = percent(target.value) + (target.kind == AccuracyTarget::Kind::noise ? " noise" : " error");
+    if (best.total_low < target.value)
+      text = fmt::format("{} may be reached, but the bias is not known well enough: {}. --effort thorough knows more. ",
+                         what, bias_words(best));
+    else
+      text = fmt::format("{} is not reached: the least bias of the estimators tried is {}. ", what,
+                         percent(answer.plan.floor));
+    text += fmt::format("Nearest: {} in {:.2g} s, {}. ", percent(best.total), best.seconds, way(answer, best));
   } else if (target.kind == AccuracyTarget::Kind::seconds) {
     text = fmt::format("in {:.3g} s: {} total ({} to {}), of which {} noise and {} bias: {}. ", target.value,
                        percent(best.total), percent(best.total_low), percent(best.total_high), percent(best.noise),
