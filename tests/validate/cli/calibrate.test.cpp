@@ -128,7 +128,7 @@ TEST_SUITE("bad input") {
       CHECK(finished.code == 0);
       return finished.err;
     };
-    for (const std::string& command : {question, std::string("run @uniform --samples 100 --rays 100")}) {
+    for (const std::string& command : {question, std::string("run @uniform --samples 100 --rays 100 --verbose")}) {
       CAPTURE(command);
       calibration.processor_share = 1;
       CHECK(errors_of(command).find("doubtful") == std::string::npos);
@@ -138,6 +138,7 @@ TEST_SUITE("bad input") {
       CHECK(errors.find("other programs took 50 % of the time") != std::string::npos);
       CHECK(errors.find('\n') == errors.size() - 1);
     }
+    CHECK(errors_of("run @uniform --samples 100 --rays 100").empty());  // it shows no predicted seconds
   }
 
   TEST_CASE("calibrate takes no time of zero") { CHECK(detp("calibrate --seconds 0").code == 2); }

@@ -206,6 +206,7 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
   options.workload.lists.choose_row(0);
   const int threads = sim::useful_threads(common.threads);
   const CostsInUse costs_in_use = options.costs.costs(common);
+  note_doubt(costs_in_use, common);
   const CostTable& costs = costs_in_use.of(engine);
   validate::JobRequest request = options.workload.request(common);
   request.workload_only = !analyze;

@@ -73,6 +73,7 @@ Result run_choose_map(const ChooseMap& command, const CommonOptions& common, con
   if (!axes.radii.empty()) request.disc_radius = axes.radii.front();
   if (request.numbers_alone()) require_numbers(request);
   const CostsInUse costs = command.costs.costs(common);
+  note_doubt(costs, common);
   const ProgressLine progress(common.quiet);
   const validate::TechniqueMap map = validate::make_map(request, axes,
                                                         {.costs = costs.of(command.engine),

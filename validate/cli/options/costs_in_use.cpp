@@ -20,19 +20,15 @@ CostsInUse built_in() {
       .built_in = true};
 }
 
-CostsInUse calibrated(const validate::StoredCalibration& stored, const CommonOptions& common) {
-  if (const std::string doubt = stored.doubt(); !doubt.empty())
-    note(common,
-         fmt::format(
-             "predicted seconds are doubtful, as is the calibration: {}; calibrate again while the machine is quiet",
-             doubt));
+CostsInUse calibrated(const validate::StoredCalibration& stored) {
   return {.simd = stored.simd,
           .plain = stored.plain,
           .origin = stored.probe
                         ? "of each operation: built in, scaled by a probe of this machine; detp calibrate knows more"
                         : fmt::format("of each operation: of this machine, calibrated {} (median error {:.2g} %)",
                                       stored.date, 100 * stored.left_out_median_error),
-          .relative_error = stored.relative_error()};
+          .relative_error = stored.relative_error(),
+          .doubt = stored.doubt()};
 }
 
 /// The stored calibration, unless it is missing, broken or of another machine.
@@ -41,10 +37,18 @@ CostsInUse stored_or_built_in(const CommonOptions& common) {
   std::string why_not;
   const auto stored = validate::stored_calibration(&why_not);
   if (!why_not.empty()) note(common, fmt::format("{}; not used; detp calibrate makes a new one", why_not));
-  return stored ? calibrated(*stored, common) : built_in();
+  return stored ? calibrated(*stored) : built_in();
 }
 
 }  // namespace
+
+void note_doubt(const CostsInUse& costs, const CommonOptions& common) {
+  if (costs.doubt.empty()) return;
+  note(common,
+       fmt::format(
+           "predicted seconds are doubtful, as is the calibration: {}; calibrate again while the machine is quiet",
+           costs.doubt));
+}
 
 void CostOptions::add_to(CLI::App& command) {
   command.add_option("--costs", costs_, unit_cost_help() + "\ndefault: those of --calibration");
@@ -71,7 +75,7 @@ CostsInUse CostOptions::costs(const CommonOptions& common) const {
   if (!differs.empty())
     throw std::invalid_argument(fmt::format(
         "{} is of another machine or program: {}; make one here with detp calibrate", calibration_, differs));
-  return calibrated(stored, common);
+  return calibrated(stored);
 }
 
 }  // namespace detp::cli

@@ -347,6 +347,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   std::string text;
   std::optional<sim::Progress> stopped;
   bool not_reached = false;
+  bool predicted = false;
   const auto prepare = [&] {
     validate::JobRequest request = options.workload.request(common);
     if (options.seed) request.seed = *options.seed;
@@ -386,10 +387,13 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
       if (!options.workload.request(common).ray_file)
         inputs["rays"] = options.workload.request(common).rays.value_or(most_rays_by_default);
     }
-    return run_row(inputs, job, found);
+    AnswerRow row = run_row(inputs, job, found);
+    predicted = predicted || row.answer.contains("predicted_seconds");
+    return row;
   };
   const std::vector<AnswerRow> answers = answer_all(problems, candidates, stop, prepare, answer);
   if (!common.answers()) return {};
+  if (predicted) note_doubt(costs, common);
   Result result = result_of(answers, expected, run_columns(), run_text_columns(common.screen()));
   if (expected == 1) {
     result.text = text;
