@@ -6,8 +6,11 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <limits>
+#include <memory>
+#include <span>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "built_in_costs.hpp"
 #include "calibration_file.hpp"
@@ -20,20 +23,39 @@
 namespace detp::validate {
 namespace {
 
-constexpr double most_seconds_of_probe = 0.2;
-constexpr int repeats = 3;
+constexpr double seconds_of_probe = 0.2;
+constexpr int least_rounds = 2;
 
-/// What is known of one technique and engine: the sum of ln(measured over predicted seconds).
+/// ln(measured over predicted seconds), of some searches.
 struct Ratios {
   double sum = 0;
   int count = 0;
 
-  void add(double ratio) { sum += std::log(ratio), ++count; }
+  void add(double measured, double predicted) {
+    if (measured > 0 && predicted > 0) sum += std::log(measured / predicted), ++count;
+  }
   void add(const Ratios& more) { sum += more.sum, count += more.count; }
   [[nodiscard]] double mean() const { return count > 0 ? std::exp(sum / count) : 1; }
 };
 
-using RatiosOfEngine = std::array<Ratios, all_techniques.size()>;
+/// Of sorting and building, and of the rest: processors differ less in one than in the other.
+struct PhaseRatios {
+  Ratios preparing;
+  Ratios search;
+
+  void add(const PhaseRatios& more) { preparing.add(more.preparing), search.add(more.search); }
+  [[nodiscard]] double factor(const UnitCostTerm& term) const {
+    const bool prepares = term.part == &CostBreakdown::order || term.part == &CostBreakdown::build;
+    return (prepares && preparing.count > 0 ? preparing : search).mean();
+  }
+};
+
+/// Of middling speed for a thousand discs; default_candidate() of cells is for many more.
+Candidate probed_candidate(Technique technique) {
+  if (technique == Technique::octree) return {technique, OctreeParameters{4}};
+  if (technique == Technique::grid) return {technique, GridParameters{12}};
+  return default_candidate(technique);
+}
 
 class Probe {
  public:
@@ -41,9 +63,15 @@ class Probe {
 
   Calibration run() && {
     const sim::DefaultFloatingPoint mode;
-    const std::array workloads{TimedWorkload{sim::Body::cube_faces, 2000, 3000, 0.02},
-                               TimedWorkload{sim::Body::cube, 1000, 2000, 0.05}};
-    for (std::size_t place = 0; place < workloads.size(); ++place) measure(workloads[place], place);
+    add({sim::Body::cube_faces, 1000, 1500, 0.03}, 0, exact_techniques);
+    add({sim::Body::cube, 700, 1000, 0.05}, 6, exact_techniques);
+    constexpr std::array large{Technique::box_tree};  // the technique of most answers
+    add({sim::Body::cube_faces, 40'000, 40'000, 0.0025}, 6, large);
+    // In rounds: a processor that is fast or slow for some milliseconds is so for one of them.
+    for (int round = 0; round < least_rounds || !is_over(); ++round)
+      for (Timed& one : timed_)
+        if (!stop_.stop_requested() && (round < least_rounds || !is_over())) time(one, round);
+    for (const Timed& one : timed_) learn(one);
     Calibration found;
     found.probe = true;
     found.left_out_median_error = probe_error;
@@ -53,51 +81,78 @@ class Probe {
   }
 
  private:
-  void measure(const TimedWorkload& workload, std::size_t place) {
-    const auto discs = discs_of(workload, place);
-    const auto rays = rays_of(workload, discs, place);
-    const sim::Problem problem = sim::make_problem(rays, discs);
+  struct Workload {
+    std::vector<sim::Disc> discs;
+    std::vector<sim::Ray> rays;
+    sim::Problem problem = sim::make_problem(rays, discs);  // borrows both
+  };
+  struct Timed {
+    const Workload* workload;
+    Candidate candidate;
+    Engine engine;
+    Counts<double> counts = {};
+    std::vector<double> preparing = {};
+    std::vector<double> search = {};
+  };
+
+  [[nodiscard]] bool is_over() const { return watch_.seconds() > seconds_of_probe || stop_.stop_requested(); }
+
+  void add(const TimedWorkload& workload, std::size_t place, std::span<const Technique> techniques) {
+    std::vector<sim::Disc> discs = discs_of(workload, place);
+    std::vector<sim::Ray> rays = rays_of(workload, discs, place);
+    const auto& made = workloads_.emplace_back(new Workload{std::move(discs), std::move(rays)});
     for (const Engine engine : {Engine::simd, Engine::plain})
-      for (const Technique technique : exact_techniques) {
-        if (engine == Engine::plain && !record_of(technique).simd) continue;  // both engines are the same
-        if (watch_.seconds() > most_seconds_of_probe || stop_.stop_requested()) return;
-        time(problem, default_candidate(technique), engine);
-      }
+      for (const Technique technique : techniques)
+        if (engine == Engine::simd || (record_of(technique).simd && workloads_.size() == 1))
+          timed_.push_back({made.get(), probed_candidate(technique), engine});
   }
 
-  void time(const sim::Problem& problem, const Candidate& candidate, Engine engine) {
-    double least = std::numeric_limits<double>::infinity();
-    Counts<double> counts;
-    for (int i = 0; i < repeats; ++i) {
+  /// The first run of a round brings the data into the caches; that of the first round touches memory for the first time.
+  void time(Timed& one, int round) {
+    for (int i = 0; i < 2; ++i) {
       const sim::ProcessorStopwatch processor;
-      const sim::Outcome outcome = sim::run(problem, candidate, {.count = i == 0, .engine = engine, .stop = stop_});
+      const bool counts = round == 0 && i == 0;
+      const sim::Outcome outcome =
+          sim::run(one.workload->problem, one.candidate, {.count = counts, .engine = one.engine, .stop = stop_});
       if (outcome.stopped) return;
-      if (i == 0) counts = as_expected(outcome.counts);
-      least = std::min({least, processor.seconds(), outcome.seconds.total()});
+      if (counts) one.counts = as_expected(outcome.counts);
+      if (i == 0) continue;
+      const double total = std::min(processor.seconds(), outcome.seconds.total());
+      one.preparing.push_back(std::min(total, outcome.seconds.order + outcome.seconds.build));
+      one.search.push_back(total - one.preparing.back());
     }
-    const double predicted = price(counts, built_in_unit_costs(engine), candidate.technique).total();
-    if (least > 0 && predicted > 0) of(engine)[static_cast<std::size_t>(candidate.technique)].add(least / predicted);
+  }
+
+  void learn(const Timed& one) {
+    if (one.search.empty()) return;
+    const CostBreakdown predicted = price(one.counts, built_in_unit_costs(one.engine), one.candidate.technique);
+    PhaseRatios& ratios = of(one.engine, one.candidate.technique);
+    ratios.preparing.add(std::ranges::min(one.preparing), predicted.order + predicted.build);
+    ratios.search.add(std::ranges::min(one.search), predicted.total() - predicted.order - predicted.build);
   }
 
   void set(CostTable& costs, Engine engine) {
-    Ratios all;
-    for (const Ratios& one : of(engine)) all.add(one);
+    PhaseRatios all;
+    for (const Technique technique : all_techniques) all.add(of(engine, technique));
     costs = built_in_unit_costs(engine);
     for (const Technique technique : all_techniques) {
-      const Engine own = record_of(technique).simd ? engine : Engine::simd;
-      const Ratios& measured = of(own)[static_cast<std::size_t>(technique)];
-      const double factor = measured.count > 0 ? measured.mean() : all.mean();
-      for (const UnitCostTerm& term : unit_cost_terms) costs[technique].*term.cost *= factor;
-      costs.threads_of(technique).start *= factor;
+      const PhaseRatios& measured = of(record_of(technique).simd ? engine : Engine::simd, technique);
+      const PhaseRatios& used = measured.search.count > 0 ? measured : all;
+      for (const UnitCostTerm& term : unit_cost_terms) costs[technique].*term.cost *= used.factor(term);
+      costs.threads_of(technique).start *= used.search.mean();
       costs.relative_error_of(technique) = CalibrationQuality{probe_error, 1}.relative_error();
     }
   }
 
-  [[nodiscard]] RatiosOfEngine& of(Engine engine) { return ratios_[static_cast<std::size_t>(engine)]; }
+  [[nodiscard]] PhaseRatios& of(Engine engine, Technique technique) {
+    return ratios_[static_cast<std::size_t>(engine)][static_cast<std::size_t>(technique)];
+  }
 
   const std::stop_token& stop_;
   sim::Stopwatch watch_;
-  std::array<RatiosOfEngine, 2> ratios_ = {};  ///< by engine
+  std::vector<std::unique_ptr<const Workload>> workloads_;
+  std::vector<Timed> timed_;
+  std::array<std::array<PhaseRatios, all_techniques.size()>, 2> ratios_ = {};  ///< by engine
 };
 
 /// Whether a file can be made there. Makes its folder.

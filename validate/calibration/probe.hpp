@@ -7,9 +7,9 @@
 /// Costs of a machine that was not calibrated.
 namespace detp::validate {
 
-/// The built-in costs of each technique and engine, times one factor each: the measured over the predicted seconds of a few short searches, on one
-/// thread, in processor time; the geometric mean of two workloads. An engine's techniques that are not measured have the mean factor of the others. Takes
-/// about 0.1 s, and no more than 0.2 s unless one search takes longer. Errors: `probe_error` in the median.
+/// The built-in costs of each technique and engine, times two factors: one for sorting and building, one for the search. They are the measured over the
+/// predicted seconds of two short searches (of a box tree also of a larger one), on one thread, in processor time: the median of rounds, until 0.2 s have
+/// passed, and their geometric mean. Errors: `probe_error` in the median.
 [[nodiscard]] Calibration probe(const std::stop_token& stop = {});
 
 /// Median error of seconds by the costs of a probe, relative; measured in probe.md.
