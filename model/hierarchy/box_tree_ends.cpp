@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 namespace detp::model::box_tree {
@@ -24,52 +25,65 @@ double below_one(double v) {
   return pi / 4 - (t * std::sqrt(1 - t * t) + std::asin(t)) / 2;
 }
 
-/// Adds the part of E[y] between two values of y, for d = 1, L = side and each m. `below(v)` is ∫₀^v P(d - reach < w) dw.
+/// Adds the part of E[y] between two values of y, for d = 1, L = side and each m. `below(v)` is ∫₀^v P(d - reach < w) dw. `points` is a multiple of 8.
 template <class Below>
 void integrate(double side, double from, double to, int points, const Below& below, Entries& entries) {
-  for (int point = 0; point < points; ++point) {
-    // Substitutes y = from + (to - from) t⁴, because most of the integral is near its lower end.
-    const double t = (point + 0.5) / points;
-    const double y = from + (to - from) * std::pow(t, 4);
-    const double weight = (to - from) * 4 * std::pow(t, 3) / points;
-    const double outside = std::max(0.0, 1 - (below(y) - below(y - side)) / side);
-    double power = 1;
-    for (std::size_t column = 0; column < exact; ++column) entries[column] += weight * (power *= outside);
-    std::array<double, 4> between;
-    for (int i = 0; i < 4; ++i) between[i] = std::pow(power, std::exp2((i + 1) / 4.0));
+  constexpr int lanes = 8;  // points at a time: their powers do not wait for each other
+  for (int first = 0; first < points; first += lanes) {
+    std::array<double, lanes> weight{};
+    std::array<double, lanes> outside{};
+    std::array<double, lanes> power{};
+    for (int lane = 0; lane < lanes; ++lane) {
+      // Substitutes y = from + (to - from) t⁴, because most of the integral is near its lower end.
+      const double t = (first + lane + 0.5) / points;
+      const double y = from + (to - from) * std::pow(t, 4);
+      weight[lane] = (to - from) * 4 * std::pow(t, 3) / points;
+      outside[lane] = std::max(0.0, 1 - (below(y) - below(y - side)) / side);
+      power[lane] = 1;
+    }
+    for (std::size_t column = 0; column < exact; ++column)
+      for (int lane = 0; lane < lanes; ++lane) entries[column] += weight[lane] * (power[lane] *= outside[lane]);
+    std::array<std::array<double, lanes>, 4> between{};
+    for (int lane = 0; lane < lanes; ++lane)
+      for (int i = 0; i < 4; ++i) between[i][lane] = std::pow(power[lane], std::exp2((i + 1) / 4.0));
     for (std::size_t column = exact; column < columns; ++column) {
-      double& next = between[(column - exact) % 4];
-      entries[column] += weight * next;
-      next *= next;
+      std::array<double, lanes>& next = between[(column - exact) % 4];
+      for (int lane = 0; lane < lanes; ++lane) {
+        entries[column] += weight[lane] * next[lane];
+        next[lane] *= next[lane];
+      }
     }
   }
 }
 
 }  // namespace
 
-/// For equal radii, made on first use.
+/// For equal radii; each row is made on first use, since a choice needs few of them.
 class BoxEnds::Table {
  public:
   static constexpr int steps = 4;              // of d/L, per octave
   static constexpr int rows = 28 * steps + 1;  // from 2⁻¹⁴ to 2¹⁴
 
-  static const Table& get() {
-    static const auto table = std::make_unique<const Table>();
+  static Table& get() {
+    static const auto table = std::make_unique<Table>();
     return *table;
   }
 
-  Table() {
-    for (int row = 0; row < rows; ++row) {
-      const double side = std::exp2(14 - static_cast<double>(row) / steps);
-      integrate(side, 0, side + 1, 128, below_one, table_[row]);
-      for (double& entry : table_[row]) entry /= side + 1;
-    }
+  /// This row, and the next one behind it.
+  [[nodiscard]] const double* row(int number) {
+    for (const int one : {number, number + 1}) std::call_once(made_[one], [&] { make(one); });
+    return table_[number].data();
   }
 
-  [[nodiscard]] const double* row(int number) const { return table_[number].data(); }
-
  private:
+  void make(int row) {
+    const double side = std::exp2(14 - static_cast<double>(row) / steps);
+    integrate(side, 0, side + 1, 128, below_one, table_[row]);
+    for (double& entry : table_[row]) entry /= side + 1;
+  }
+
   std::array<Entries, rows> table_{};
+  std::array<std::once_flag, rows> made_;
 };
 
 /// For classes of radii, a row for each L.
