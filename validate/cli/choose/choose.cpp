@@ -241,8 +241,8 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
     question.problem = &problem;
     question.workload = job.workload();
     question.ray_count = job.given.rays;
-    if (question.rigor.value_or(validate::reachable_rigor(question, costs)) != Rigor::pilot)
-      answer.evidence_seconds = job.observed().seconds;
+    const bool by_pilot = question.rigor.value_or(validate::reachable_rigor(question, costs)) == Rigor::pilot;
+    (by_pilot ? answer.shown_evidence_seconds : answer.evidence_seconds) = job.observed().seconds;
     result.stopped = decide(answer, question, costs);
     if (analyze && !result.stopped) {
       const CostTable priced = validate::costs_for(question, costs);

@@ -93,6 +93,7 @@ Json to_json(const ChooseAnswer& answer) {
             {"choosing_seconds",
              {{"total", answer.choosing_seconds},
               {"evidence", answer.evidence_seconds},
+              {"evidence_shown", answer.shown_evidence_seconds},
               {"pilot", answer.by_sample() ? answer.choice.choosing_seconds : 0}}},
             {"choosing_share", answer.choosing_seconds / answer.choice.best().time.total()},
             {"warnings", answer.warnings}};

@@ -26,9 +26,10 @@ struct ChooseAnswer {
   std::optional<validate::Analysis> analysis;
   Rigor rigor = Rigor::estimate;  ///< reached, with the analysis
   CostTable costs;
-  std::string costs_origin;     ///< "of each operation: built in, ..."
-  double evidence_seconds = 0;  ///< for measuring rays and discs, as far as the choice needs it
-  double choosing_seconds = 0;  ///< with evidence and pilot
+  std::string costs_origin;           ///< "of each operation: built in, ..."
+  double evidence_seconds = 0;        ///< for measuring rays and discs, as far as the choice needs it
+  double shown_evidence_seconds = 0;  ///< the same where only the reader needs it, beside a pilot
+  double choosing_seconds = 0;        ///< with evidence and pilot
   std::vector<std::string> warnings;
   Json ledgers = Json::object();     ///< of light and geometry
   std::optional<RanksAnswer> ranks;  ///< of --ranks

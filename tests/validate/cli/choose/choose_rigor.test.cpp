@@ -48,6 +48,7 @@ TEST_SUITE("end to end") {
     CHECK(json.at("rigor") == "pilot");
     CHECK(json.at("choice").at("predicted_seconds_error") > 0);
     CHECK(json.at("candidates")[0].at("could_still_win") == true);
+    CHECK(json.at("choosing_seconds").at("evidence_shown").get<double>() > 0);
     CHECK(json.at("choosing_seconds").at("total") == json.at("choosing_seconds").at("pilot"));  // without tips
     CHECK(json.at("choosing_share") > 0);
     CHECK(json.at("ruled_out").size() + json.at("not_examined").size() == 8);
