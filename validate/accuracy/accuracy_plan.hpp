@@ -31,8 +31,8 @@ struct AccuracyPoint {
   double bias_high = 0;
   double mean_bias = 0;        ///< signed: light gained or lost, relative to the mean irradiance
   double mean_bias_error = 0;  ///< its standard error
-  double total =
-      0;  ///< √(noise² + the mean of bias², given its estimate and that it is at least 0): a bias that is hardly known counts
+  /// √(noise² + the mean of bias², normal with its error and cut off below 0): a bias that is hardly known counts, so this may be above √(noise² + bias²).
+  double total = 0;
   double total_low = 0;  ///< of one run, 95 %: both intervals, whose errors are independent
   double total_high = 0;
   double trace_seconds = 0;

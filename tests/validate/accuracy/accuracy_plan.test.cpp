@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
@@ -87,6 +88,26 @@ TEST_SUITE("plans of accuracy") {
     const AccuracyPlan twice = plan_accuracy(made_pilot(0), {Kind::seconds, 0.4});
     CHECK(without.answer.radius == doctest::Approx(0.08));
     CHECK(twice.answer.total * std::sqrt(2.0) == doctest::Approx(without.answer.total).epsilon(1e-4));
+  }
+
+  TEST_CASE("a bias that is hardly known counts in the total: bias² 0 ± s is 0.798 s in the mean, and 1 ± 0.01 is 1") {
+    for (const double error : {1e-4, 1e-2}) {
+      const AccuracyPoint unknown = plan_accuracy(made_pilot(0, error), {Kind::seconds, 1}).answer;
+      const double bias_squared = std::pow(unknown.total, 2) - std::pow(unknown.noise, 2);
+      CHECK(bias_squared == doctest::Approx(std::sqrt(2 / std::numbers::pi) * error).epsilon(1e-6));
+      CHECK(unknown.bias == 0);
+      CHECK(unknown.total <= unknown.total_high);
+    }
+    const auto floor_of = [](double mean, double error) {
+      AccuracyPilot pilot = made_pilot(0, error);
+      for (SettingPilot& setting : pilot.estimators[0].settings) setting.bias_squared.mean = mean;
+      return plan_accuracy(pilot, {Kind::total, 0.01}).floor;
+    };
+    CHECK(floor_of(0.04, 4e-4) == doctest::Approx(0.2));
+    // Far below 0 the mean is s²/|mean|; both formulas meet at 6 s.
+    CHECK(floor_of(-0.06 * 0.9999, 0.01) / floor_of(-0.06 * 1.0001, 0.01) == doctest::Approx(1).epsilon(0.002));
+    CHECK_FALSE(plan_accuracy(made_pilot(0, 0.1), {Kind::total, 0.1}).reached);  // a bias of 0 ± 0.1 in its square
+    CHECK(plan_accuracy(made_pilot(0, 1e-4), {Kind::total, 0.1}).reached);
   }
 
   TEST_CASE("the slope is that of the total error between two times near by, and its interval contains it") {

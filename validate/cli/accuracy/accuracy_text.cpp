@@ -155,9 +155,9 @@ std::string answer_words(const AccuracyAnswer& answer) {
                          percent(answer.plan.floor));
     text += fmt::format("Nearest: {} in {:.2g} s, {}. ", percent(best.total), best.seconds, way(answer, best));
   } else if (target.kind == AccuracyTarget::Kind::seconds) {
-    text = fmt::format("in {:.3g} s: {} total ({} to {}), of which {} noise and {} bias: {}. ", target.value,
-                       percent(best.total), percent(best.total_low), percent(best.total_high), percent(best.noise),
-                       percent(best.bias), way(answer, best));
+    text = fmt::format("in {:.3g} s: {} total ({} to {}), {} noise, bias {}: {}. ", target.value, percent(best.total),
+                       percent(best.total_low), percent(best.total_high), percent(best.noise), bias_words(best),
+                       way(answer, best));
   } else {
     text = fmt::format("{} {} takes {}: {:.2g} s ({:.2g} to {:.2g}){}. ", percent(target.value),
                        target.kind == AccuracyTarget::Kind::noise ? "noise" : "error", way(answer, best), best.seconds,
@@ -190,10 +190,10 @@ std::size_t inside(const AccuracyAnswer& answer) {
 std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
   std::string text = wrapped("answer    " + answer_words(answer), screen.text_width(), 10);
   text += wrapped(
-      "          " + fmt::format("In {:.2g} s, twice the time: {} total ({} noise, {} bias): {}. With the answer's "
+      "          " + fmt::format("In {:.2g} s, twice the time: {} total ({} noise, bias {}): {}. With the answer's "
                                  "setting, the total falls as the time to the power {:.2f} ({:.2f} to {:.2f}).",
                                  answer.in_time.seconds, percent(answer.in_time.total), percent(answer.in_time.noise),
-                                 percent(answer.in_time.bias), way(answer, answer.in_time), answer.plan.answer.slope,
+                                 bias_words(answer.in_time), way(answer, answer.in_time), answer.plan.answer.slope,
                                  answer.plan.answer.slope_low, answer.plan.answer.slope_high),
       screen.text_width(), 10);
   text += wrapped("estimator " + rivals_words(answer), screen.text_width(), 10);
