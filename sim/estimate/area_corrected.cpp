@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "detp/sim/base/stopwatch.hpp"
@@ -142,8 +143,9 @@ class AreaCorrected {
 
 class AreaCorrectedIndex final : public Index {
  public:
-  AreaCorrectedIndex(const Mesh& mesh, const std::stop_token& stop) : triangles_(mesh, stop) {
-    built_.seconds.build = watch_.seconds();
+  AreaCorrectedIndex(const Mesh& mesh, const std::stop_token& stop, std::shared_ptr<const NearTriangles> triangles)
+      : triangles_(triangles != nullptr ? std::move(triangles) : std::make_shared<const NearTriangles>(mesh, stop)) {
+    built_.seconds.build = triangles_->seconds();
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
@@ -159,7 +161,7 @@ class AreaCorrectedIndex final : public Index {
     const auto measured = std::make_shared<Areas>();
     measured->digest = digest;
     if (!known) measured->of_disc.resize(discs);
-    const AreaCorrected estimates(problem, triangles_, known ? last.get() : nullptr, *measured, options.stop);
+    const AreaCorrected estimates(problem, *triangles_, known ? last.get() : nullptr, *measured, options.stop);
     outcome.seconds.build = watch.lap();
     sum_near(
         problem, options, [&](std::uint32_t disc, Near& near) { estimates.find(disc, near); }, outcome);
@@ -175,16 +177,16 @@ class AreaCorrectedIndex final : public Index {
     return last_;
   }
 
-  Stopwatch watch_;
-  NearTriangles triangles_;
+  std::shared_ptr<const NearTriangles> triangles_;
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const Areas> last_;  ///< of the last search: batches of rays have the same discs
 };
 
 }  // namespace
 
-std::unique_ptr<Index> prepare_area_corrected(const Problem&, const Mesh& mesh, const RunOptions& options) {
-  return std::make_unique<AreaCorrectedIndex>(mesh, options.stop);
+std::unique_ptr<Index> prepare_area_corrected(const Mesh& mesh, const std::stop_token& stop,
+                                              std::shared_ptr<const NearTriangles> triangles) {
+  return std::make_unique<AreaCorrectedIndex>(mesh, stop, std::move(triangles));
 }
 
 }  // namespace detp::sim

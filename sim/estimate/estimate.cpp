@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
@@ -47,8 +48,7 @@ Outcome by_paths(const Problem& problem, const EstimateRequest& request, const R
 
 Outcome by_surfaces(const Problem& problem, const EstimateRequest& request, const RunOptions& options) {
   require_surfaces(problem, request);
-  const auto prepare = request.estimator == Estimator::area_corrected ? prepare_area_corrected : prepare_triangle_hits;
-  return run(problem, *prepare(problem, *request.mesh, options), options);
+  return run(problem, *prepare_surfaces(request.estimator, *request.mesh, options.stop), options);
 }
 
 Outcome by_estimator(const Problem& problem, const EstimateRequest& request, const RunOptions& options) {
@@ -74,6 +74,18 @@ Outcome by_estimator(const Problem& problem, const EstimateRequest& request, con
 }
 
 }  // namespace
+
+std::unique_ptr<Index> prepare_surfaces(Estimator estimator, const Mesh& mesh, const std::stop_token& stop,
+                                        std::shared_ptr<const NearTriangles> triangles) {
+  switch (estimator) {
+    case Estimator::area_corrected:
+      return prepare_area_corrected(mesh, stop, std::move(triangles));
+    case Estimator::triangle_hits:
+      return prepare_triangle_hits(mesh, stop, std::move(triangles));
+    default:
+      throw std::invalid_argument(fmt::format("{} does not look at surfaces", name(estimator)));
+  }
+}
 
 Outcome estimate(const Problem& problem, const EstimateRequest& request, const RunOptions& options) {
   const DefaultFloatingPoint mode;

@@ -2,11 +2,14 @@
 
 #include <memory>
 
-#include "detp/sim/scene/mesh.hpp"
+#include "detp/sim/scene/near_triangles.hpp"
 #include "detp/sim/search/index.hpp"
+#include "estimator.hpp"
 
-/// The estimators that look at surfaces. Each is an index over the mesh, not over the discs.
 namespace detp::sim {
+
+/// The estimators that look at surfaces. Each is an index over the mesh, not over the discs; the mesh must outlive it. `triangles`: of the
+/// same mesh, if they are there already. Throws Stopped.
 
 /// Photons over the area of the surfaces that they met:
 ///
@@ -19,8 +22,8 @@ namespace detp::sim {
 /// photons does. On curved surfaces the area grows. Light that arrives on either side counts, as for discs.
 /// Source: H. Hey, W. Purgathofer, "Advanced radiance estimation for photon map global illumination", Eurographics 2002,
 /// reduced to a constant kernel.
-[[nodiscard]] std::unique_ptr<Index> prepare_area_corrected(const Problem& problem, const Mesh& mesh,
-                                                            const RunOptions& options);
+[[nodiscard]] std::unique_ptr<Index> prepare_area_corrected(const Mesh& mesh, const std::stop_token& stop,
+                                                            std::shared_ptr<const NearTriangles> triangles = {});
 
 /// Photons that met the triangles, over their area:
 ///
@@ -33,7 +36,12 @@ namespace detp::sim {
 /// matter. Triangles share a vertex if they name the same one. Those of a scene have one normal each (sim/scene/vertices.hpp), so
 /// its edges stay sharp. Sources: J. Arvo, "Backward ray tracing", SIGGRAPH course 1986; S. N. Pattanaik, S. P. Mudur, "Computation of global
 /// illumination by Monte Carlo simulation of the particle model of light", 1992.
-[[nodiscard]] std::unique_ptr<Index> prepare_triangle_hits(const Problem& problem, const Mesh& mesh,
-                                                           const RunOptions& options);
+[[nodiscard]] std::unique_ptr<Index> prepare_triangle_hits(const Mesh& mesh, const std::stop_token& stop,
+                                                           std::shared_ptr<const NearTriangles> triangles = {});
+
+/// One of the two. Throws std::invalid_argument for an estimator without needs_mesh.
+[[nodiscard]] std::unique_ptr<Index> prepare_surfaces(Estimator estimator, const Mesh& mesh,
+                                                      const std::stop_token& stop,
+                                                      std::shared_ptr<const NearTriangles> triangles = {});
 
 }  // namespace detp::sim

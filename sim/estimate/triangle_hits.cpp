@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
@@ -41,8 +42,8 @@ class Lists {
 /// The mesh as the estimator sees it: the triangles around each vertex, their area, and those near a disc.
 class Patches {
  public:
-  Patches(const Mesh& mesh, const std::stop_token& stop)
-      : mesh_(mesh), near_(mesh, stop), around_(mesh.positions.size(), [&](const auto& add) {
+  Patches(const Mesh& mesh, const NearTriangles& near)
+      : mesh_(mesh), near_(near), around_(mesh.positions.size(), [&](const auto& add) {
           for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle)
             if (near_.is_met(triangle))
               for (const std::uint32_t corner : mesh.triangles[triangle]) add(corner, triangle);
@@ -121,16 +122,18 @@ class Patches {
   }
 
   const Mesh& mesh_;
-  NearTriangles near_;
+  const NearTriangles& near_;
   Lists around_;  ///< triangles around each vertex
   double scale_ = 1;
 };
 
 class TriangleHitsIndex final : public Index {
  public:
-  TriangleHitsIndex(const Mesh& mesh, const std::stop_token& stop)
-      : triangles_(mesh.triangles.size()), patches_(mesh, stop) {
-    built_.seconds.build = watch_.seconds();
+  TriangleHitsIndex(const Mesh& mesh, const std::stop_token& stop, std::shared_ptr<const NearTriangles> triangles)
+      : near_(triangles != nullptr ? std::move(triangles) : std::make_shared<const NearTriangles>(mesh, stop)),
+        triangles_(mesh.triangles.size()),
+        patches_(mesh, *near_) {
+    built_.seconds.build = near_->seconds() + watch_.seconds();
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
@@ -159,15 +162,17 @@ class TriangleHitsIndex final : public Index {
   }
 
  private:
-  Stopwatch watch_;
+  std::shared_ptr<const NearTriangles> near_;
+  Stopwatch watch_;  ///< after near_
   std::size_t triangles_;
   Patches patches_;
 };
 
 }  // namespace
 
-std::unique_ptr<Index> prepare_triangle_hits(const Problem&, const Mesh& mesh, const RunOptions& options) {
-  return std::make_unique<TriangleHitsIndex>(mesh, options.stop);
+std::unique_ptr<Index> prepare_triangle_hits(const Mesh& mesh, const std::stop_token& stop,
+                                             std::shared_ptr<const NearTriangles> triangles) {
+  return std::make_unique<TriangleHitsIndex>(mesh, stop, std::move(triangles));
 }
 
 }  // namespace detp::sim

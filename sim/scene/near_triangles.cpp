@@ -5,6 +5,7 @@
 #include "detp/sim/base/embree.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 
 namespace detp::sim {
 namespace {
@@ -77,7 +78,9 @@ struct NearTriangles::Embree {
 
 NearTriangles::NearTriangles(const Mesh& mesh, const std::stop_token& stop) {
   const DefaultFloatingPoint mode;
+  const Stopwatch watch;
   embree_ = std::make_unique<Embree>(mesh, stop);
+  seconds_ = watch.seconds();
 }
 
 NearTriangles::~NearTriangles() = default;

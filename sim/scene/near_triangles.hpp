@@ -26,10 +26,13 @@ class NearTriangles {
   [[nodiscard]] bool is_met(std::uint32_t triangle) const;
   /// The facet of a triangle that is_met, in scene units.
   [[nodiscard]] const Facet& facet(std::uint32_t triangle) const;
+  /// Seconds that making this took.
+  [[nodiscard]] double seconds() const { return seconds_; }
 
  private:
   struct Embree;
   std::unique_ptr<Embree> embree_;
+  double seconds_ = 0;
 };
 
 }  // namespace detp::sim

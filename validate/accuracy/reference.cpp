@@ -127,7 +127,7 @@ std::vector<double> ReferenceMaker::within(const sim::Paths& missed, double radi
   const auto discs = discs_at(reference_.judged.samples, radius);
   const sim::Problem problem =
       sim::make_problem(missed, discs, options_.front_facing, sim::thread_count(options_.threads), options_.stop);
-  if (!surfaces_) surfaces_ = sim::prepare_area_corrected(problem, scene_.mesh, {.stop = options_.stop});
+  if (!surfaces_) surfaces_ = sim::prepare_area_corrected(scene_.mesh, options_.stop);
   sim::Outcome outcome =
       sim::run(problem, *surfaces_, {.count = false, .stop = options_.stop, .threads = options_.threads});
   if (outcome.stopped) throw sim::Stopped("stopped before the reference had a value for each sample");

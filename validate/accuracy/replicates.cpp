@@ -54,7 +54,7 @@ sim::Outcome ReplicateMaker::estimate(const sim::PathRays& paths, std::span<cons
   const sim::RunOptions options{.count = false, .standard_error = standard_error, .stop = stop_, .threads = threads_};
   sim::Outcome outcome =
       sim::record_of(setting.estimator).needs_mesh
-          ? sim::run(problem, surfaces(problem, setting.estimator), options)
+          ? sim::run(problem, surfaces(setting.estimator), options)
           : sim::estimate(problem,
                           {.estimator = setting.estimator, .candidate = usual_search, .nearest = setting.nearest},
                           options);
@@ -72,12 +72,10 @@ std::vector<sim::PathSums> ReplicateMaker::gather(std::span<const sim::Sample> s
   return sums;
 }
 
-const sim::Index& ReplicateMaker::surfaces(const sim::Problem& problem, sim::Estimator estimator) const {
-  const bool area = estimator == sim::Estimator::area_corrected;
-  std::unique_ptr<const sim::Index>& built = area ? area_corrected_ : triangle_hits_;
-  if (built == nullptr)
-    built = area ? sim::prepare_area_corrected(problem, scene_.mesh, {.stop = stop_})
-                 : sim::prepare_triangle_hits(problem, scene_.mesh, {.stop = stop_});
+const sim::Index& ReplicateMaker::surfaces(sim::Estimator estimator) const {
+  std::unique_ptr<const sim::Index>& built = surfaces_[static_cast<std::size_t>(estimator)];
+  if (triangles_ == nullptr) triangles_ = std::make_shared<const sim::NearTriangles>(scene_.mesh, stop_);
+  if (built == nullptr) built = sim::prepare_surfaces(estimator, scene_.mesh, stop_, triangles_);
   return *built;
 }
 

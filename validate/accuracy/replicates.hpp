@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/ray_caster.hpp"
 #include "detp/sim/reference/backward_paths.hpp"
+#include "detp/sim/scene/near_triangles.hpp"
 #include "detp/sim/scene/scene.hpp"
 #include "detp/sim/search/index.hpp"
 
@@ -62,7 +64,7 @@ class ReplicateMaker {
 
  private:
   [[nodiscard]] bool goes_on();
-  [[nodiscard]] const sim::Index& surfaces(const sim::Problem& problem, sim::Estimator estimator) const;
+  [[nodiscard]] const sim::Index& surfaces(sim::Estimator estimator) const;
 
   sim::Scene& scene_;
   bool front_facing_;
@@ -71,8 +73,8 @@ class ReplicateMaker {
   std::shared_ptr<const sim::RayCaster> caster_;
   double caster_seconds_ = 0;
   /// Built once, they depend on the mesh alone.
-  mutable std::unique_ptr<const sim::Index> area_corrected_;
-  mutable std::unique_ptr<const sim::Index> triangle_hits_;
+  mutable std::shared_ptr<const sim::NearTriangles> triangles_;
+  mutable std::array<std::unique_ptr<const sim::Index>, sim::estimators.size()> surfaces_;
   std::optional<bool> goes_on_;  ///< paths go on beyond surfaces
 };
 

@@ -41,9 +41,7 @@ JobSearch::JobSearch(const Job& job, sim::Estimator estimator, const Candidate& 
   else if (!job.scene)
     throw std::invalid_argument(fmt::format("{} needs a mesh: a scene with triangles", name(estimator)));
   else
-    surfaces_ = estimator == sim::Estimator::area_corrected
-                    ? sim::prepare_area_corrected(job.problem(), job.scene->mesh, options_)
-                    : sim::prepare_triangle_hits(job.problem(), job.scene->mesh, options_);
+    surfaces_ = sim::prepare_surfaces(estimator, job.scene->mesh, options_.stop);
 }
 
 const sim::Outcome& JobSearch::operator()(const sim::PathRays& rays) {
