@@ -17,7 +17,8 @@ namespace {
 /// T of the sphere cache at one Q for all numbers of spheres, in one pass from the outside in.
 class CacheTimes {
  public:
-  CacheTimes(const Valid<Workload>& workload, const Valid<UnitCosts>& costs) : workload_(workload), costs_(costs) {
+  CacheTimes(const Valid<Workload>& workload, const Valid<UnitCosts>& costs)
+      : workload_(workload), costs_(costs), lists_(far_lists({.culls = 1, .sorted = workload.samples})) {
     const double blocks = blocks_of(workload.rays, workload.samples);
     costs_.cull *= blocks;
     costs_.visit *= blocks;
@@ -61,13 +62,15 @@ class CacheTimes {
   void pass(double ratio, std::int64_t last, const Visit& visit) const {
     double spheres = (costs_.sort + costs_.visit) * workload_.samples;
     for_each_level(workload_, {ratio, last, SampleOrder::lebesgue}, [&](const SphereLevel& level) {
-      spheres += level.rebuilds * (level.tests * costs_.cull_test + level.listed * costs_.listed + costs_.cull);
+      spheres +=
+          level.rebuilds * (level.tests * costs_.cull_test + level.listed * costs_.listed + lists_ * costs_.cull);
       return visit(level.i, spheres + workload_.samples * level.served * costs_.disc_test, spheres);
     });
   }
 
   const Valid<Workload>& workload_;
   UnitCosts costs_;  ///< multiplied by the number of blocks: each block makes lists and visits discs
+  double lists_;     ///< by which far_lists multiplies lists
 };
 
 /// ln(ln 1/Q), the coordinate of the search. The local minima of T are spaced about evenly in this coordinate: if ln Q
@@ -155,7 +158,7 @@ bool holds_a_disc(const Valid<Workload>& workload, double ratio) {
 
 double time_at_any_ratio(const Valid<Workload>& workload, const Valid<UnitCosts>& costs) {
   const double visits = blocks_of(workload.rays, workload.samples) * workload.samples;
-  return costs.ray * workload.rays + costs.hit * expected_hits(workload) + costs.far * far_discs({.visits = visits}) +
+  return costs.ray * workload.rays + costs.hit * expected_hits(workload) + costs.far * far_discs({.visits = visits, .sorted = workload.samples}) +
          costs.start;
 }
 

@@ -38,9 +38,10 @@ std::optional<Completed> completed(Technique technique, const FixedParameters& f
   return Completed{candidate, fixed.values.empty() ? best->counts : std::nullopt, best->tuned};
 }
 
-Prediction ranked(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Counts<double>& counts,
+Prediction ranked(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Counts<double>& found,
                   const Valid<CostTable>& costs, int most_threads) {
   require_count("number of threads", most_threads, 1, 1e6);
+  const Counts<double> counts = with_bytes_touched(found, candidate, costs.engine);
   const auto fastest = fastest_price(counts, costs, candidate.technique, most_threads);
   return {.candidate = candidate,
           .counts = counts,

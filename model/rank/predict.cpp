@@ -15,7 +15,7 @@ Counts<double> predict(const Valid<Workload>& workload, const Valid<Candidate>& 
   Counts<double> counts = model_of(candidate.technique).predict(workload, candidate, engine);
   counts.loaded = workload.rays;
   if (some_rays_end(workload)) counts.segments = workload.rays;
-  return counts;
+  return with_bytes_touched(counts, candidate, engine);
 }
 
 }  // namespace detp::model

@@ -12,7 +12,10 @@ std::optional<FoundParameters> best_cells(const Valid<Workload>& workload, const
                                           const FixedParameters&, const SearchLimits& limits) {
   Fastest<CellSpheresParameters> fastest(costs, Technique::cell_spheres, limits);
   int depth = 0;
-  for_each_cell_sphere_depth(workload, {std::min(limits.most_depth, 16)}, [&](const Counts<double>& counts) {
+  const double blocks = ray_blocks(workload.rays, workload.samples, limits.engine).count();
+  for_each_cell_sphere_depth(workload, {std::min(limits.most_depth, 16)}, [&](Counts<double> counts) {
+    counts.culls *= blocks;
+    counts.visits *= blocks;
     fastest.consider({depth++}, counts);
     return !fastest.excludes(counts) && !limits.stop.stop_requested();
   });

@@ -25,7 +25,9 @@ namespace {
 CostBreakdown price_on_one(const Counts<double>& counts, const UnitCosts& costs, Technique technique) {
   CostBreakdown time = price(counts, costs, technique);
   const double again =
-      costs.far * (far_discs(counts) - far_discs({.placements = counts.placements, .sorted = counts.sorted}));
+      costs.far *
+      (far_discs(counts) -
+       far_discs({.references = counts.references, .placements = counts.placements, .sorted = counts.sorted}));
   time.build -= again;
   time.intersect += again;
   return time;

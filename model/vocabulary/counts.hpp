@@ -25,6 +25,8 @@ struct Counts {
   T made{};        ///< nodes made of a tree of boxes (of its binary tree) or of spheres
   T sorted{};      ///< discs sorted along a curve
   T hits{};        ///< (ray, disc) pairs found
+  /// Memory that a search touches for the first time, unless an earlier search left it its arrays. Not counted by `sim`: see bytes_touched.hpp
+  T bytes_touched{};
 
   bool operator==(const Counts&) const = default;
   constexpr Counts& operator+=(const Counts& more);
@@ -39,7 +41,7 @@ struct CountTerm {
 
 /// All terms, in the order in which results list them.
 template <class T>
-inline constexpr std::array<CountTerm<T>, 15> count_terms{{{"loaded", &Counts<T>::loaded},
+inline constexpr std::array<CountTerm<T>, 16> count_terms{{{"loaded", &Counts<T>::loaded},
                                                            {"segments", &Counts<T>::segments},
                                                            {"cull_tests", &Counts<T>::cull_tests},
                                                            {"culls", &Counts<T>::culls},
@@ -53,7 +55,8 @@ inline constexpr std::array<CountTerm<T>, 15> count_terms{{{"loaded", &Counts<T>
                                                            {"placements", &Counts<T>::placements},
                                                            {"made", &Counts<T>::made},
                                                            {"sorted", &Counts<T>::sorted},
-                                                           {"hits", &Counts<T>::hits}}};
+                                                           {"hits", &Counts<T>::hits},
+                                                           {"bytes_touched", &Counts<T>::bytes_touched}}};
 
 template <class T>
 constexpr Counts<T>& Counts<T>::operator+=(const Counts& more) {

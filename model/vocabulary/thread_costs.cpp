@@ -62,7 +62,8 @@ CostBreakdown on_threads(const CostBreakdown& one, const Pieces& pieces, const T
           .rebuild = search * one.rebuild,
           .copy = search * one.copy,
           .traverse = search * one.traverse,
-          .intersect = search * one.intersect};
+          .intersect = search * one.intersect,
+          .touch = search * one.touch};
 }
 
 std::vector<int> thread_numbers(int most) {

@@ -1,6 +1,7 @@
 #pragma once
 
 /// The types that prediction and simulation share.
+#include "bytes_touched.hpp"
 #include "checks.hpp"
 #include "cost_table.hpp"
 #include "counts.hpp"

@@ -1,5 +1,7 @@
 #include "scratch.hpp"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <bit>
 #include <new>
@@ -7,7 +9,21 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::size_t cache_line = 64;  // bytes; the alignment and the smallest size
+constexpr std::size_t cache_line = 64;  // bytes; the smallest size
+constexpr std::size_t large_page = std::size_t{1} << 21;
+
+std::align_val_t alignment_of(std::size_t size) {
+  return std::align_val_t{size >= large_page ? large_page : cache_line};
+}
+
+/// A block for do_allocate.
+void* from_heap(std::size_t size) {
+  void* const block = ::operator new(size, alignment_of(size));
+#ifdef MADV_HUGEPAGE
+  if (size >= large_page) madvise(block, size, MADV_HUGEPAGE);  // a hint
+#endif
+  return block;
+}
 
 /// Number of the size class of a request. The classes are 64 bytes, then four per octave: 80, 96, 112, 128, 160, …
 std::size_t class_of(std::size_t bytes) {
@@ -35,7 +51,7 @@ void Scratch::release() {
     while (Free* const block = free_[number]) {
       free_[number] = block->next;
       held_ -= size_of_class(number);
-      ::operator delete (block, std::align_val_t{cache_line});
+      ::operator delete(block, alignment_of(size_of_class(number)));
     }
 }
 
@@ -49,7 +65,7 @@ void* Scratch::do_allocate(std::size_t bytes, std::size_t alignment) {
   if (block != nullptr) {
     free_[number] = free_[number]->next;
   } else {
-    block = ::operator new (size, std::align_val_t{cache_line});
+    block = from_heap(size);
     held_ += size;
   }
   used_ += size;

@@ -11,8 +11,9 @@
 namespace detp::sim {
 
 /// A memory resource that keeps freed blocks and reuses them: a search that is repeated at the same size takes nothing
-/// from the heap. Sizes are rounded up to one of four sizes per octave; blocks are aligned to a cache line. The threads
-/// of one search may share a Scratch; simultaneous searches need one each.
+/// from the heap. Sizes are rounded up to one of four sizes per octave; blocks are aligned to a cache line, large ones to large
+/// pages, which are asked for where the system offers them. The threads of one search may share a Scratch; simultaneous searches need
+/// one each.
 class Scratch final : public std::pmr::memory_resource {
  public:
   Scratch() = default;

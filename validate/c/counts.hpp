@@ -20,7 +20,8 @@ namespace detp::c {
           .placements = counts.placements,
           .made = counts.made,
           .sorted = counts.sorted,
-          .hits = counts.hits};
+          .hits = counts.hits,
+          .bytes_touched = counts.bytes_touched};
 }
 
 }  // namespace detp::c

@@ -99,6 +99,7 @@ typedef struct detp_counts {
   double steps, nodes;                  /* cells and tree nodes that single rays visit */
   double references, placements, made, sorted; /* of building: references stored, insertions, nodes, discs sorted */
   double hits;
+  double bytes_touched; /* memory of a first search, by the sizes of its arrays; expected, or 0 */
 } detp_counts;
 
 /* Called at least ten times a second during long work, perhaps from other threads, one call at a time. share: of the work, 0 to 1. Returns 0 to go on, else the
@@ -113,7 +114,7 @@ typedef struct detp_costs detp_costs; /* of each operation, in seconds; never ch
 DETP_API detp_status detp_costs_built_in(detp_costs **costs, detp_error *error);
 /* Those that `detp calibrate` stored for this machine; the built-in ones if there are none. */
 DETP_API detp_status detp_costs_stored(detp_costs **costs, detp_error *error);
-/* Measured now, in about so many seconds (> 0; 17 for good ones, at least some). store: for detp_costs_stored. */
+/* Measured now, in about so many seconds (> 0; 8 for good ones, at least some). store: for detp_costs_stored. */
 DETP_API detp_status detp_costs_measured(double seconds, int store, detp_progress progress, void *user, detp_costs **costs,
                                          detp_error *error);
 DETP_API void detp_costs_free(detp_costs **costs);
@@ -153,6 +154,7 @@ typedef struct detp_plan_facts {
   double predicted_seconds; /* of a search, building the index included */
   double predicted_error;   /* standard error of it; 0: not known */
   double planning_seconds;
+  double predicted_seconds_again; /* of a repeated search, in the scratch of an earlier one */
 } detp_plan_facts;
 
 DETP_API detp_status detp_plan_describe(const detp_plan *plan, detp_plan_facts *facts, detp_error *error);

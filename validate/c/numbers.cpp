@@ -154,6 +154,7 @@ detp_status detp_choose(const detp_workload* workload, const detp_costs* costs, 
     ours.discs = 0;
     ours.threads = best.threads;
     ours.predicted_seconds = best.time.total();
+    ours.predicted_seconds_again = best.time.again();
     ours.predicted_error = 0;
     ours.planning_seconds = choice.choosing_seconds;
     c::write_back(facts, ours);

@@ -33,7 +33,7 @@ detp_status detp_search(const detp_plan* plan, const detp_rays* rays, detp_scrat
     ours.seconds = outcome.seconds.total();
     ours.reading_seconds = outcome.seconds.prepare;
     ours.build_seconds = outcome.seconds.build;
-    ours.counts = c::counts_of(as_expected(outcome.counts));
+    ours.counts = c::counts_of(with_bytes_touched(as_expected(outcome.counts), one.plan.candidate(), Engine::simd));
     ours.stopped = outcome.stopped ? 1 : 0;
     c::write_back(found, ours);
     if (outcome.stopped) throw sim::Stopped("the search was stopped", outcome.progress);

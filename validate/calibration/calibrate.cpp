@@ -3,27 +3,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "built_in_costs.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/base/in_turns.hpp"
 #include "detp/validate/base/stop_after.hpp"
 #include "fit_all.hpp"
 #include "round_times.hpp"
 #include "timed_workloads.hpp"
+#include "touch_cost.hpp"
 
 namespace detp::validate {
 namespace {
 
-constexpr double longest_run = 0.06;      ///< seconds; a longer run is stopped and left out
-constexpr double longest_of_large = 0.3;  ///< the same with many discs or many rays
-constexpr int rounds_of_workload = 6;
-constexpr int most_repeats = 4;            ///< in a round
-constexpr double enough_in_round = 0.005;  ///< seconds after which a run is not repeated in the same round
-constexpr double long_run = 0.03;          ///< seconds; a shorter run is repeated once at least, to find warm caches
+constexpr double longest_run = 0.012;     ///< seconds; a longer run is stopped and left out
+constexpr double longest_of_large = 0.2;  ///< the same with many discs or many rays
+constexpr double share_of_first = 0.5;    ///< of the time, for the first round over the workloads
+constexpr int most_rounds = 8;
+constexpr int most_repeats = 2;            ///< in a round
+constexpr double enough_in_round = 0.002;  ///< seconds after which a run is not repeated in the same round
+constexpr double long_run = 0.006;         ///< seconds; a shorter run is repeated once at least, to find warm caches
 
 class Calibrator {
  public:
@@ -32,21 +36,41 @@ class Calibrator {
 
   Calibration run() && {
     const std::vector<TimedWorkload> all = timed_workloads();
-    for (std::size_t i = 0; i < all.size() && !is_over(i); ++i) {
-      report(watch_.seconds());
-      measure(all[i], i);
-      ++result_.workloads;
+    const auto more = [&](std::size_t i) {
+      return i < least_workloads || watch_.seconds() < share_of_first * options_.seconds;
+    };
+    for (std::size_t i = 0; i < all.size() && more(i) && !options_.stop.stop_requested(); ++i) {
+      report();
+      add(all[i], i);
     }
+    for (int round = 1; round < most_rounds; ++round)
+      for (Timed& one : timed_) {
+        if (is_over(round)) break;
+        report();
+        if (!one.agrees()) time(one);
+      }
+    result_.workloads = workloads_.size();
     result_.stopped = options_.stop.stop_requested();
     if (wall_seconds_ > 0) result_.processor_share = processor_seconds_ / wall_seconds_;
+    for (const Timed& one : timed_) store(one);
     fit_all(runs_, result_);
+    set_touch_cost(result_);
     result_.seconds = watch_.seconds();
     return std::move(result_);
   }
 
  private:
+  struct Workload {
+    std::size_t place;
+    std::vector<sim::Disc> discs;
+    std::vector<sim::Ray> rays;
+    sim::Problem problem = sim::make_problem(rays, discs);  // borrows both
+    CheckSeconds checks = time_checks(problem, rays, discs);
+  };
+
   /// A candidate of a workload, and its times so far on each number of threads.
   struct Timed {
+    const Workload* workload;
     Candidate candidate;
     Engine engine;
     Counts<double> counts;
@@ -58,49 +82,44 @@ class Calibrator {
     }
   };
 
-  [[nodiscard]] bool is_over(std::size_t place) const {
-    return options_.stop.stop_requested() || (place >= least_workloads && watch_.seconds() >= options_.seconds);
+  /// After the second round, which tells whether a time was disturbed.
+  [[nodiscard]] bool is_over(int round) const {
+    const double most = round == 1 ? 2 * options_.seconds : options_.seconds;
+    return options_.stop.stop_requested() || watch_.seconds() >= most;
   }
 
-  void report(double seconds) const {
+  void report() const {
     if (!options_.progress) return;
-    const double share = std::min(1.0, seconds / options_.seconds);
-    options_.progress({fmt::format("workload {}", result_.workloads + 1), share, 1, 0, options_.seconds - seconds});
+    const double seconds = watch_.seconds();
+    options_.progress({fmt::format("{} workloads", workloads_.size()), std::min(1.0, seconds / options_.seconds), 1, 0,
+                       options_.seconds - seconds});
   }
 
-  void measure(const TimedWorkload& workload, std::size_t place) {
-    const auto discs = discs_of(workload, place);
-    const auto rays = rays_of(workload, discs, place);
-    const sim::Problem problem = sim::make_problem(rays, discs);
-    std::vector<Timed> all;
+  /// Makes a workload, and times its candidates once.
+  void add(const TimedWorkload& workload, std::size_t place) {
+    std::vector<sim::Disc> discs = discs_of(workload, place);
+    std::vector<sim::Ray> rays = rays_of(workload, discs, place);
+    const auto& made = workloads_.emplace_back(new Workload{place, std::move(discs), std::move(rays)});
     for (const Candidate& candidate : timed_candidates(workload, place))
-      for (const Engine engine : {Engine::simd, Engine::plain})
-        if ((engine == Engine::simd || record_of(candidate.technique).simd) && !is_over(place) &&
-            !is_hopeless(workload, candidate.technique, engine))
-          count(problem, workload, candidate, engine, place, all);
-    const auto begin = [&](int) {
-      return !std::all_of(all.begin(), all.end(), [](auto& one) { return one.agrees(); });
-    };
-    in_turns(all.size(), rounds_of_workload, begin, [&](std::size_t i, int) {
-      if (is_over(place)) return false;
-      if (!all[i].agrees()) time(problem, all[i]);
-      return true;
-    });
-    for (const Timed& one : all) store(one, place);
+      for (const Engine engine : {Engine::simd, Engine::plain}) {
+        if (options_.stop.stop_requested()) return;
+        if (engine == Engine::plain && (!record_of(candidate.technique).simd || is_large(workload))) continue;
+        if (!is_hopeless(workload, candidate.technique, engine)) count(*made, workload, candidate, engine);
+      }
   }
 
-  /// Counts the candidate's operations, and adds it to those to time, unless it takes too long.
-  void count(const sim::Problem& problem, const TimedWorkload& workload, const Candidate& candidate, Engine engine,
-             std::size_t place, std::vector<Timed>& all) {
+  /// Counts the candidate's operations, and times it, unless it takes too long.
+  void count(const Workload& made, const TimedWorkload& workload, const Candidate& candidate, Engine engine) {
     const double longest = is_large(workload) ? longest_of_large : longest_run;
     const StopAfter limit(options_.stop, longest);
-    const sim::Outcome counted = sim::run(problem, candidate, {.engine = engine, .stop = limit.token()});
+    const sim::Outcome counted = sim::run(made.problem, candidate, {.engine = engine, .stop = limit.token()});
     if (counted.stopped) too_long_.push_back({candidate.technique, engine, workload});
     if (counted.stopped || counted.seconds.total() > longest) return;
-    Timed one{candidate, engine, as_expected(counted.counts)};
-    if (place % 2 == 0 && is_divided(one.counts, candidate.technique, engine)) one.numbers = numbers_;
+    Timed one{&made, candidate, engine, as_expected(counted.counts)};
+    if (engine == Engine::simd && made.place % 2 == 0 && is_divided(one.counts, candidate.technique, engine))
+      one.numbers = numbers_;
     one.times.resize(one.numbers.size());
-    all.push_back(std::move(one));
+    time(timed_.emplace_back(std::move(one)));
   }
 
   /// Whether two threads would be busy.
@@ -118,14 +137,14 @@ class Calibrator {
   }
 
   /// One round of runs of the candidate, which alternate between the numbers of threads.
-  void time(const sim::Problem& problem, Timed& one) {
+  void time(Timed& one) {
     for (RoundTimes& times : one.times) times.begin_round();
     double timed = 0;
     for (int i = 0; i < most_repeats && timed < (i < 2 ? long_run : enough_in_round); ++i) {
       for (std::size_t j = 0; j < one.numbers.size(); ++j) {
         const sim::ProcessorStopwatch processor;
         const sim::Outcome outcome =
-            sim::run(problem, one.candidate,
+            sim::run(one.workload->problem, one.candidate,
                      {.count = false, .engine = one.engine, .stop = options_.stop, .threads = one.numbers[j]});
         if (outcome.stopped) return;
         const double wall = outcome.seconds.total();
@@ -143,11 +162,14 @@ class Calibrator {
     }
   }
 
-  void store(const Timed& timed, std::size_t place) {
+  void store(const Timed& timed) {
     const RoundTimes& one = timed.times.front();
+    const std::size_t place = timed.workload->place;
+    const CheckSeconds& checks = timed.workload->checks;
     if (!one.timed()) return;
     TechniqueRuns& runs = runs_.of(timed.engine, timed.candidate.technique);
-    runs.on_one_thread.push_back({place, timed.counts, one.seconds(), one.preparing()});
+    runs.on_one_thread.push_back(
+        {place, timed.counts, one.seconds() + checks.discs + checks.rays, one.preparing() + checks.discs});
     for (std::size_t i = 1; i < timed.numbers.size(); ++i)
       if (const RoundTimes& more = timed.times[i]; more.timed() && more.agree())
         runs.on_more.push_back(
@@ -164,6 +186,8 @@ class Calibrator {
   std::vector<int> numbers_;  ///< of threads
   sim::Stopwatch watch_;
   Calibration result_;
+  std::vector<std::unique_ptr<const Workload>> workloads_;
+  std::vector<Timed> timed_;
   TimedRuns runs_;
   double wall_seconds_ = 0;       ///< of runs on one thread
   double processor_seconds_ = 0;  ///< of these

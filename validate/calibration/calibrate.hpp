@@ -13,8 +13,8 @@
 namespace detp::validate {
 
 struct CalibrationOptions {
-  double seconds = 25;  ///< no run starts after this time, but some small workloads are always measured
-  int threads = 0;      ///< most threads of a run; 0: all cores; 1: costs of threads are not measured
+  double seconds = 8;  ///< no run starts after this time, but some small workloads are always measured
+  int threads = 0;     ///< most threads of a run; 0: all cores; 1: costs of threads are not measured
   std::stop_token stop = {};
   sim::ReportPhase progress = {};
 };
@@ -43,13 +43,14 @@ struct Calibration : CalibrationQuality {
 /// few to very many hits; by both engines where they differ; box trees and brute force also with up to 10⁶ discs or rays. The samples are uniform, those of
 /// every third workload in clusters. The discs of half the workloads are in order along a curve. The rays of half the
 /// workloads are isotropic lines; those of the others are pieces of such lines, or of paths from sample to sample. Runs of
-/// more than 0.06 s (0.3 s with so many discs or rays) are left out.
+/// more than 0.012 s (0.2 s with so many discs or rays) are left out.
 ///
-/// The candidates of a workload are timed in rounds. In a round, each is run up to four times in succession, until 0.005 s
-/// have passed; the shortest time counts, of the wall clock or of the processor: time that other programs took is no cost.
-/// A candidate takes part in two to six rounds, until the shortest times of two rounds agree within 5 %. On every second
-/// workload, each run whose work is divided alternates with runs on 2, 4, … threads, by the wall clock; if these times
-/// never agree, they are left out.
+/// The first half of the time goes to making as many workloads as it suffices for, and timing their candidates once. Rounds over all
+/// of them follow, so that seconds lie between two times of a candidate: a processor that is slow for a while is so for one of them. In a
+/// round, a candidate is run twice in succession, the first time for the caches; the shortest time counts, of the wall clock or of the
+/// processor: time that other programs took is no cost. A candidate whose shortest times of two rounds agree within 5 % is timed no
+/// more. On every second workload, each run of the simd engine whose work is divided alternates with runs on 2, 4, … threads, by the
+/// wall clock; if these times never agree, they are left out.
 ///
 /// Fits the unit costs of each technique and engine to its runs on one thread, in seconds (fit_costs); the usual costs are
 /// the built-in ones. Fits the costs of threads to the runs on more threads. A technique with too few runs (10, or 5 on

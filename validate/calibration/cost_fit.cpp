@@ -43,9 +43,11 @@ Terms occurring_terms(std::span<const TimedRun> runs, Technique technique) {
   return terms;
 }
 
-/// True if the cost is a part of the seconds for sorting and building. (Discs far from the cache slow the search, too.)
-bool is_of_building(const UnitCostTerm& term) {
-  return term.cost != &UnitCosts::far && (term.part == &CostBreakdown::order || term.part == &CostBreakdown::build);
+/// What of the term's quantity belongs to the seconds for sorting and building. (Discs that no near cache holds slow the search, too.)
+double quantity_of_building(const UnitCostTerm& term, const Counts<double>& counts) {
+  if (term.cost == &UnitCosts::far)
+    return far_discs({.references = counts.references, .placements = counts.placements, .sorted = counts.sorted});
+  return term.part == &CostBreakdown::order || term.part == &CostBreakdown::build ? term.quantity(counts) : 0;
 }
 
 /// Costs that are expected, on this machine, where nothing else is known. 0: nothing is expected.
@@ -79,7 +81,7 @@ Equations equations_of(std::span<const TimedRun> runs, const Terms& terms, const
   std::vector<double> row(terms.size());
   const auto add_shares = [&](const TimedRun& run, double seconds, bool only_building) {
     for (std::size_t i = 0; i < terms.size(); ++i)
-      row[i] = only_building && !is_of_building(*terms[i]) ? 0 : terms[i]->quantity(run.counts) / seconds;
+      row[i] = (only_building ? quantity_of_building(*terms[i], run.counts) : terms[i]->quantity(run.counts)) / seconds;
     if (std::any_of(row.begin(), row.end(), [](double share) { return share > 0; })) equations.add(row, 1);
   };
   for (const TimedRun& run : runs) {

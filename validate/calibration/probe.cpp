@@ -19,6 +19,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "timed_workloads.hpp"
+#include "touch_cost.hpp"
 
 namespace detp::validate {
 namespace {
@@ -76,6 +77,7 @@ class Probe {
     found.probe = true;
     found.left_out_median_error = probe_error;
     for (const Engine engine : {Engine::simd, Engine::plain}) set(found.of(engine).costs, engine);
+    set_touch_cost(found);
     found.seconds = watch_.seconds();
     return found;
   }
@@ -85,6 +87,7 @@ class Probe {
     std::vector<sim::Disc> discs;
     std::vector<sim::Ray> rays;
     sim::Problem problem = sim::make_problem(rays, discs);  // borrows both
+    CheckSeconds checks = time_checks(problem, rays, discs);
   };
   struct Timed {
     const Workload* workload;
@@ -127,8 +130,10 @@ class Probe {
     if (one.search.empty()) return;
     const CostBreakdown predicted = price(one.counts, built_in_unit_costs(one.engine), one.candidate.technique);
     PhaseRatios& ratios = of(one.engine, one.candidate.technique);
-    ratios.preparing.add(std::ranges::min(one.preparing), predicted.order + predicted.build);
-    ratios.search.add(std::ranges::min(one.search), predicted.total() - predicted.order - predicted.build);
+    const CheckSeconds& checks = one.workload->checks;
+    ratios.preparing.add(std::ranges::min(one.preparing) + checks.discs, predicted.order + predicted.build);
+    ratios.search.add(std::ranges::min(one.search) + checks.rays,
+                      predicted.total() - predicted.order - predicted.build);
   }
 
   void set(CostTable& costs, Engine engine) {

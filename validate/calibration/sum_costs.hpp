@@ -16,13 +16,13 @@ namespace detp::validate {
 ///            time of a search without sums plus this is 0.83 to 1.21 times that with sums
 [[nodiscard]] inline CostTable costs_of_sums(CostTable costs) {
   if (costs.engine != Engine::simd) return costs;
-  const double placing = costs[Technique::box_tree].leaf;
+  const double placing = costs[Technique::box_tree].placement;
   for (const TechniqueRecord& record : technique_records)
     if (record.simd && !record.ray_by_ray) {
       costs[record.technique].visit += placing;
       costs[record.technique].hit += 0.1 * placing;
     }
-  costs[Technique::box_tree].leaf += 0.8 * placing;
+  costs[Technique::box_tree].placement += 0.8 * placing;
   return costs;
 }
 

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "detp/model/sphere_cache/sphere_count.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/geometry/lebesgue.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/search/problem.hpp"
 
 namespace detp::validate {
 namespace {
@@ -84,18 +85,18 @@ std::vector<TimedWorkload> timed_workloads() {
     const bool small = one.samples <= 1000 && one.rays <= 1000;
     (small && first.size() < least_workloads ? first : mixed).push_back(one);
   }
-  const std::vector<TimedWorkload> large{{sim::Body::cube_faces, 100'000, 1'000'000, 0.0016},
-                                         {sim::Body::cube_faces, 300'000, 1'000'000, 0.0009},
-                                         {sim::Body::cube_faces, 20'000, 600'000, 0.0035},
+  const std::vector<TimedWorkload> large{{sim::Body::cube_faces, 1000, 300'000, 0.01},
                                          {sim::Body::cube, 300'000, 100, 0.004},
-                                         {sim::Body::cube_faces, 1000, 300'000, 0.01},
-                                         {sim::Body::cube_faces, 1'000'000, 1000, 0.0005},
-                                         {sim::Body::cube, 100, 1'000'000, 0.03},
+                                         {sim::Body::cube_faces, 100'000, 1'000'000, 0.0016},
                                          {sim::Body::cube_faces, 300'000, 10'000, 0.002},
                                          {sim::Body::cube, 1000, 1'000'000, 0.01},
+                                         {sim::Body::cube_faces, 1'000'000, 1000, 0.0005},
+                                         {sim::Body::cube_faces, 20'000, 600'000, 0.0035},
+                                         {sim::Body::cube, 100, 1'000'000, 0.03},
+                                         {sim::Body::cube_faces, 300'000, 1'000'000, 0.0009},
                                          {sim::Body::cube, 600'000, 100, 0.001},
                                          {sim::Body::cube_faces, 10'000, 300'000, 0.01}};
-  constexpr std::size_t apart = 2;
+  constexpr std::size_t apart = 3;
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     if (i % apart == 0 && i / apart < large.size()) first.push_back(large[i / apart]);
     first.push_back(mixed[i]);
@@ -126,6 +127,20 @@ std::vector<sim::Ray> rays_of(const TimedWorkload& workload, const std::vector<s
     rays[i].length = (0.1 + 0.4 * random[1]) * side;
   }
   return rays;
+}
+
+CheckSeconds time_checks(const sim::Problem& problem, std::span<const sim::Ray> rays,
+                         std::span<const sim::Disc> discs) {
+  constexpr int tries = 3;
+  CheckSeconds least{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  for (int i = 0; i < tries; ++i) {
+    sim::Stopwatch watch;
+    sim::Problem made = sim::make_problem_without_rays(discs, problem.farthest());
+    least.discs = std::min(least.discs, watch.lap());
+    sim::set_rays(made, rays);
+    least.rays = std::min(least.rays, watch.lap());
+  }
+  return least;
 }
 
 std::vector<Candidate> timed_candidates(const TimedWorkload& workload, std::size_t place) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/geometry/geometry.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
+#include "detp/sim/search/problem.hpp"
 
 /// The workloads that a calibration times.
 namespace detp::validate {
@@ -24,7 +26,7 @@ struct TimedWorkload {
   return workload.samples > many || workload.rays > many;
 }
 
-inline constexpr std::size_t least_workloads = 16;  ///< measured even if that takes longer than asked
+inline constexpr std::size_t least_workloads = 8;  ///< measured even if that takes longer than asked
 
 /// First least_workloads small ones; then small and large, sparse and dense ones mixed, so that any first part of them can
 /// be fitted.
@@ -40,6 +42,14 @@ inline constexpr std::size_t least_workloads = 16;  ///< measured even if that t
 /// ones, were predicted 0.83 times as long as measured (median of 58 searches, their counts right); with clusters and paths 0.9.
 [[nodiscard]] std::vector<sim::Ray> rays_of(const TimedWorkload& workload, const std::vector<sim::Disc>& discs,
                                             std::size_t place);
+
+/// Seconds for checking the discs and the rays of a search, which is a part of it: the shortest of some.
+struct CheckSeconds {
+  double discs = 0;
+  double rays = 0;
+};
+[[nodiscard]] CheckSeconds time_checks(const sim::Problem& problem, std::span<const sim::Ray> rays,
+                                       std::span<const sim::Disc> discs);
 
 /// Parameters from too coarse to too fine; `place` varies them from workload to workload.
 [[nodiscard]] std::vector<Candidate> timed_candidates(const TimedWorkload& workload, std::size_t place);

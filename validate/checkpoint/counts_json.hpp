@@ -9,7 +9,8 @@
 namespace detp {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Counts<std::uint64_t>, loaded, segments, cull_tests, culls, listed, visits,
-                                   disc_tests, doubtful, steps, nodes, references, placements, made, sorted, hits)
+                                   disc_tests, doubtful, steps, nodes, references, placements, made, sorted, hits,
+                                   bytes_touched)
 
 }  // namespace detp
 

@@ -131,8 +131,8 @@ class Analyser {
       one.given_up_after = patience;
       return;
     }
-    one.counted = outcome.counts;
-    const double seconds = time.own_part_of(outcome.seconds.total());
+    one.counted = with_bytes_touched(outcome.counts, one.candidate, options_.engine);
+    const double seconds = options_.check_seconds + time.own_part_of(outcome.seconds.total());
     first_seconds_.back() = seconds;
     fastest_ = std::min(fastest_, seconds);
     if (choice && one.predicted && one.predicted->time.total() > 0) slowness_ = seconds / one.predicted->time.total();
@@ -169,7 +169,7 @@ class Analyser {
       report(i, first_seconds_[i], std::max(0.0, remaining));
       const OwnTime time(one.threads);
       const sim::Outcome outcome = run(one, false, options_.stop);
-      if (!outcome.stopped) seconds[i].push_back(time.own_part_of(outcome.seconds.total()));
+      if (!outcome.stopped) seconds[i].push_back(options_.check_seconds + time.own_part_of(outcome.seconds.total()));
       return true;
     });
     for (std::size_t i = 0; i < all_.candidates.size(); ++i)

@@ -42,6 +42,7 @@ struct AnalysisOptions {
   std::size_t leaders = 2;  ///< number of fastest candidates whose neighbours are tried
   std::vector<Technique> disabled = {};  ///< techniques that are not added to the ranked ones
   Engine engine = Engine::simd;          ///< of all runs
+  double check_seconds = 0;              ///< of checking rays and discs: a part of each run
   int threads = 1;                       ///< of the runs of candidates without a prediction, if they are divided
   std::stop_token stop = {};
   /// Returns the models' prediction for a candidate that was not ranked, or nothing if the candidate has no closed

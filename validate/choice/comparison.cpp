@@ -72,8 +72,10 @@ class Comparison {
 
 }  // namespace
 
-Prediction priced(const Candidate& candidate, const Counts<double>& counts, const Counts<double>& error,
+Prediction priced(const Candidate& candidate, const Counts<double>& counted, const Counts<double>& error,
                   const Prices& prices) {
+  const Counts<double> counts =
+      with_bytes_touched(counted, candidate, static_cast<const CostTable&>(prices.costs).engine);
   const auto [threads, time] = prices(counts, candidate.technique);
   Counts<double> more = counts;
   more += error;

@@ -30,7 +30,7 @@ namespace {
 /// p/u of the costs; where one of these is zero, the usual one.
 double placing_of(const CostTable& table) {
   const UnitCosts& costs = table[Technique::box_tree];
-  return costs.leaf > 0 && costs.disc_test > 0 ? costs.leaf / costs.disc_test : usual_placing;
+  return costs.placement > 0 && costs.disc_test > 0 ? costs.placement / costs.disc_test : usual_placing;
 }
 
 /// Looks for the fastest box tree: halves and doubles leaf and fan-out in turn, as long as that is faster.

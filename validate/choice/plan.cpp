@@ -156,7 +156,9 @@ class Plan::Planner {
     Plan made(basis_, best.candidate);
     made.searcher_ = std::make_shared<LateSearcher>(sim::Searcher(basis_->problem, std::move(index)));
     made.threads_ = best.threads;
-    made.predicted_seconds_ = best.seconds() + reading_ * basis_->rays / static_cast<double>(rays_.size());
+    const double reading = reading_ * basis_->rays / static_cast<double>(rays_.size());
+    made.predicted_seconds_ = best.time.total() + reading;
+    made.predicted_seconds_again_ = best.time.again() + reading;
     made.predicted_error_ = best.error;
     made.planning_seconds_ = seconds_;
     made.rays_ = basis_->rays;

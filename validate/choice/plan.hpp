@@ -45,6 +45,8 @@ class Plan {
   [[nodiscard]] int threads() const { return threads_; }
   /// Predicted time of one search on threads(). Includes building, and also sorting, unless the discs' order is known.
   [[nodiscard]] double predicted_seconds() const { return predicted_seconds_; }
+  /// The same of a repeated search, whose memory (sim::SearchScratch) is that of an earlier one.
+  [[nodiscard]] double predicted_seconds_again() const { return predicted_seconds_again_; }
   /// Standard error of the predicted time: because the pilot has only a sample of rays and subtrees, and because of the unit
   /// costs (CostTable::relative_errors). After `replan`, that of the extrapolation comes in addition.
   [[nodiscard]] double predicted_error() const { return predicted_error_; }
@@ -72,6 +74,7 @@ class Plan {
   int threads_ = 1;
   double rays_ = 0;  ///< number of rays in each search
   double predicted_seconds_ = 0;
+  double predicted_seconds_again_ = 0;
   double predicted_error_ = 0;
   double planning_seconds_ = 0;
   Rigor rigor_ = Rigor::estimate;

@@ -10,9 +10,9 @@ PredictionError prediction_error(const Prediction& predicted, const Counts<std::
                                  const CostTable& costs) {
   const Counts<double> found = as_expected(counted);
   const Technique technique = predicted.candidate.technique;
-  const double counted_seconds = price(found, costs, technique, predicted.threads).total();
-  PredictionError error{.seconds = predicted.time.total() / seconds,
-                        .counts = predicted.time.total() / counted_seconds,
+  const double counted_seconds = price(found, costs, technique, predicted.threads).again();
+  PredictionError error{.seconds = predicted.time.again() / seconds,
+                        .counts = predicted.time.again() / counted_seconds,
                         .unit_costs = counted_seconds / seconds,
                         .worst = {}};
   double most = -1;

@@ -67,7 +67,8 @@ Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays) {
     return {&one, found.seconds(), found.threads};
   };
   const auto by_pilot = [&](const Prediction& one) -> Replanned {
-    Counts<double> counts = one.counts_at(disc_radius / basis.radius, count);
+    Counts<double> counts =
+        with_bytes_touched(one.counts_at(disc_radius / basis.radius, count), one.candidate, basis.options.costs.engine);
     if (basis.order) counts.sorted = 0;
     const auto fastest = fastest_price(counts, basis.options.costs, one.candidate.technique, most_threads);
     return {&one, fastest.time.total(), fastest.threads};

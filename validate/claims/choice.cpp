@@ -44,8 +44,8 @@ Estimate observed(const CountedSearch& counted, const CountTerm<double>& term, d
 
 /// True if the count is a claim: it is `hits`, or has a unit cost > 0 for this technique.
 bool is_claimed(const CountTerm<double>& term, Technique technique) {
-  if (term.name == "loaded" || term.name == "segments" || term.name == "sorted")
-    return false;  // the numbers of rays and discs, which are inputs
+  if (term.name == "loaded" || term.name == "segments" || term.name == "sorted" || term.name == "bytes_touched")
+    return false;  // the numbers of rays and discs, which are inputs; what follows from counts
   Counts<double> one;
   one.*term.term = 1;
   return term.name == "hits" ||

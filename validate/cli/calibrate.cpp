@@ -239,7 +239,7 @@ Command calibrate_command(CLI::App& program) {
       "Example: detp calibrate --seconds 10\n--output FILE saves the calibration there instead, even if it is "
       "doubtful.");
   const auto options = std::make_shared<CalibrateOptions>();
-  add_number(*app, "--seconds", options->seconds, "time for the measurements; default: 25");
+  add_number(*app, "--seconds", options->seconds, "time for the measurements; default: 8");
   options->instruction_set.add_to(*app, "the kernels, one");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_calibrate(*options, common, stop);

@@ -15,9 +15,9 @@ struct Chosen {
   Prediction prediction;        ///< of a run with the candidate
   double choosing_seconds = 0;  ///< time that choosing took
 
-  /// 0: not predicted, only guessed.
+  /// Of a repeated run. 0: not predicted, only guessed.
   [[nodiscard]] double predicted_seconds() const {
-    return prediction.source == Source::guess ? 0 : prediction.seconds();
+    return prediction.source == Source::guess ? 0 : prediction.time.again();
   }
 };
 

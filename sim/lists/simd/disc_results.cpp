@@ -311,12 +311,15 @@ void DiscResults::store_totals() {
   for (PhotonSums& photons : photons_) photons.close(totals().unit());
   const double heaviest = heaviest_photon(photons_, problem_.largest_power());
   Totals& all = totals();
+  // Where nothing hits, the results are 0 already.
+  const auto is_zero = [&](std::size_t place) { return photons_.empty() && sums_[place].hits == 0; };
   const auto fetch = [&](std::size_t place) {
     const std::uint32_t disc = tree_.order[place];
     if (!own) {
       hwy::Prefetch(&all[disc]);
       return;
     }
+    if (is_zero(place)) return;
     hwy::Prefetch(&problem_.discs()[disc].radius);
     hwy::Prefetch(&outcome_.hits[disc]);
     hwy::Prefetch(&outcome_.irradiance[disc]);
@@ -325,6 +328,7 @@ void DiscResults::store_totals() {
     const std::uint32_t disc = tree_.order[place];
     const PhotonSums* const photons = photons_.empty() ? nullptr : &photons_[place];
     if (own) {
+      if (is_zero(place)) return;
       finish_disc(own_, problem_.discs()[disc], disc, sums_[place], photons, heaviest, outcome_);
     } else {
       all[disc] = sums_[place];

@@ -61,7 +61,7 @@ CostTable random_cost_table(support::RandomNumbers& random) {
   CostTable table(UnitCosts{.cull_test = 0.6,
                             .disc_test = 0.45,
                             .listed = 1.3,
-                            .leaf = 44,
+                            .placement = 44,
                             .make = 58,
                             .sort = 68,
                             .cull = 100,

@@ -66,7 +66,8 @@ TEST_SUITE("known answer") {
     const Counts<double> counts = predict(typical, candidates[0], Engine::plain);
     CHECK(counts.disc_tests == 1e11);
     CHECK(counts.hits == expected_hits(typical));
-    CHECK(counts == Counts<double>{.loaded = typical.rays, .visits = 1e5, .disc_tests = 1e11, .hits = counts.hits});
+    const Counts<double> expected{.loaded = typical.rays, .visits = 1e5, .disc_tests = 1e11, .hits = counts.hits};
+    CHECK(counts == with_bytes_touched(expected, candidates[0], Engine::plain));
   }
 
   TEST_CASE("rays with a mean path length are segments, others are not; so are those of the best candidate") {
@@ -78,11 +79,12 @@ TEST_SUITE("known answer") {
     for (const Prediction& one : rank(typical, CostTable(UnitCosts{}))) CHECK(one.counts.segments == 0);
   }
 
-  TEST_CASE("each technique is predicted by its own formulas, plus the rays") {
+  TEST_CASE("each technique is predicted by its own formulas, plus the rays and the memory") {
     const auto predicted = [](const Candidate& candidate) {
       Counts<double> counts = predict(typical, candidate, Engine::plain);
       CHECK(counts.loaded == typical.rays);
-      counts.loaded = 0;
+      CHECK(counts.bytes_touched == bytes_touched(counts, candidate, Engine::plain));
+      counts.loaded = counts.bytes_touched = 0;
       return counts;
     };
     CHECK(predicted(candidates[1]) == sphere_cache_counts(typical, {0.6, 6}));

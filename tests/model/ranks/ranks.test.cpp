@@ -68,7 +68,7 @@ TEST_SUITE("reference value") {
 TEST_SUITE("reference value") {
   TEST_CASE("what each ray takes: by hand") {
     using namespace detp;
-    const UnitCosts costs{.cull_test = 2, .disc_test = 1, .cull = 0, .ray = 3, .long_test = 5};
+    const UnitCosts costs{.cull_test = 2, .disc_test = 1, .cull = 0, .ray = 3, .streamed = 0.25};
     Prediction tree{.candidate = {Technique::box_tree, BoxTreeParameters{4, 8}},
                     .counts = {.loaded = 1e5, .cull_tests = 2e6, .culls = 1e4, .disc_tests = 1e6, .references = 1e3}};
     const double all = 1e5 * 3 + 2e6 * 2 + 1e6;
@@ -77,8 +77,10 @@ TEST_SUITE("reference value") {
     tree.counts.loaded = 0x1p20;
     tree.counts.cull_tests = 2e7;
     tree.counts.references = 1e5;
-    const double longer = 0x1p20 * 3 + 2e7 * 2 + 1e6 + 5 * long_tests(tree.counts);
-    CHECK(share_of_each_ray(tree, costs, 1e5) == doctest::Approx(0x1p20 * (3 + 4 * (2 + 5)) / longer));
+    const double longer = 0x1p20 * 3 + 2e7 * 2 + 1e6 + 0.25 * streamed_bytes(tree.counts);
+    CHECK(share_of_each_ray(tree, costs, 1e5) == doctest::Approx((0x1p20 * (3 + 4 * (2 + 0.25 * bytes_of_listed_ray)) +
+                                                                  0.25 * bytes_of_ray * (0x1p20 - 0x1p17)) /
+                                                                 longer));
     CHECK(share_of_each_ray({}, {}, 1) == 0);
   }
 }

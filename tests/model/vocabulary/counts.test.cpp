@@ -33,10 +33,10 @@ TEST_SUITE("identity") {
       names.insert(name);
       values.push_back(term);
     });
-    CHECK(names.size() == 15);
-    CHECK(values.size() == 15);
-    CHECK(sizeof(Counts<double>) == 15 * sizeof(double));
-    CHECK(values.back() == 16384);
+    CHECK(names.size() == 16);
+    CHECK(values.size() == 16);
+    CHECK(sizeof(Counts<double>) == 16 * sizeof(double));
+    CHECK(values.back() == 32768);
   }
 
   TEST_CASE("an observation converts to the same numbers") {

@@ -22,7 +22,6 @@ constexpr UnitCosts costs{.cull_test = 2,
                           .node = 11,
                           .listed = 13,
                           .placement = 17,
-                          .leaf = 19,
                           .sort = 23,
                           .cull = 29,
                           .visit = 31};
@@ -41,7 +40,8 @@ TEST_SUITE("identity") {
 TEST_SUITE("known answer") {
   TEST_CASE("each part is priced by its own cost") {
     CHECK(price({.sorted = 1}, costs).order == 23);
-    CHECK(price({.placements = 1}, costs).build == 19);
+    CHECK(price({.placements = 1}, costs).build == 17);
+    CHECK(price({.bytes_touched = 1}, {.touch = 37}).touch == 37);
     CHECK(price({.cull_tests = 1}, costs).rebuild == 2);
     CHECK(price({.culls = 1}, costs).rebuild == 29);
     CHECK(price({.listed = 1}, costs).copy == 13);
@@ -64,40 +64,55 @@ TEST_SUITE("known answer") {
                                 .sorted = 1};
     const CostBreakdown time = price(counts, costs);
     CHECK(time.total() == time.order + time.build + time.rebuild + time.copy + time.traverse + time.intersect);
-    CHECK(time.total() == 2 + 29 + 13 + 31 + 3 + 7 + 11 + 19 + 23);
+    CHECK(time.total() == 2 + 29 + 13 + 31 + 3 + 7 + 11 + 17 + 23);
     CHECK(price({}, costs).total() == 0);
+  }
+
+  TEST_CASE("a repeated search touches no memory for the first time") {
+    const CostBreakdown time = price({.sorted = 2, .bytes_touched = 3}, {.sort = 5, .touch = 7});
+    CHECK(time.total() == 31);
+    CHECK(time.again() == 10);
   }
 
   TEST_CASE(
       "lists that are longer than a near cache holds: half of the tests, if the block halves its way to the mean list "
       "there") {
     constexpr double discs = 100'000;  // blocks of 2¹⁹ rays
-    const Counts<double> counts{.loaded = 1e7, .cull_tests = 0x1p13 * 1e5, .culls = 1e5, .references = discs};
-    CHECK(long_tests(counts) == doctest::Approx(counts.cull_tests * 3 / 6));
-    CHECK(price(counts, {.cull_test = 0, .disc_test = 0, .long_test = 2}).rebuild ==
-          doctest::Approx(counts.cull_tests));
-    CHECK(price(counts, {.cull_test = 0, .long_test = 2}, CostEngine::ray_by_ray).rebuild == 0);
+    constexpr double near_rays = near_bytes / bytes_of_listed_ray;
+    const double mean = near_rays * near_rays / 0x1p19;
+    const Counts<double> counts{.loaded = 1e5, .cull_tests = mean * 1e5, .culls = 1e5, .references = discs};
+    CHECK(long_tests({.loaded = 0x1p19, .cull_tests = mean * 1e5, .culls = 1e5, .references = discs}) ==
+          doctest::Approx(mean * 1e5 / 2));
+    CHECK(price(counts, {.cull_test = 0, .disc_test = 0, .streamed = 2}).start ==
+          doctest::Approx(2 * bytes_of_listed_ray * long_tests(counts)));
   }
 
   TEST_CASE("lists of a near cache have no long tests; lists that are all longer have only long tests") {
-    CHECK(long_tests({.loaded = 0x1p16, .cull_tests = 1e9, .culls = 1e3, .references = 1e5}) == 0);
+    CHECK(long_tests({.loaded = 6e4, .cull_tests = 1e9, .culls = 1e3, .references = 1e5}) == 0);
     CHECK(long_tests({.loaded = 1e9, .cull_tests = 1e9, .culls = 1e3, .references = 1000}) == 0);  // blocks of 2¹⁵
     CHECK(long_tests({.loaded = 1e9, .references = 1e5}) == 0);
     const Counts<double> counts{.loaded = 1e9, .cull_tests = 1e9, .culls = 1e3, .references = 1e5};
     CHECK(long_tests(counts) == doctest::Approx(counts.cull_tests));
   }
 
-  TEST_CASE("rays that no cache holds have a cost of their own") {
-    const UnitCosts far{.ray = 3, .far_ray = 5};
+  TEST_CASE("rays that no cache holds cost by their bytes") {
+    constexpr double cached_rays = 0x1p17;
+    const UnitCosts far{.ray = 3, .streamed = 5};
     CHECK(price({.loaded = cached_rays}, far).start == 3 * cached_rays);
-    CHECK(price({.loaded = cached_rays + 10}, far).start == 3 * cached_rays + 80);
+    CHECK(price({.loaded = cached_rays + 10}, far).start == 3 * cached_rays + 30 + 50 * bytes_of_ray);
   }
 
-  TEST_CASE("techniques that search rays one by one have their own costs of disc tests and placements") {
+  TEST_CASE("discs that no near cache holds: by the square of the doublings") {
+    CHECK(far_discs({.sorted = 1e4}) == 0);
+    CHECK(far_discs({.placements = 2e4}) == doctest::Approx(2e4));
+    CHECK(far_discs({.visits = 8e4}) == doctest::Approx(9 * 8e4));
+  }
+
+  TEST_CASE("techniques that search rays one by one have their own cost of disc tests") {
     for (const TechniqueRecord& record : technique_records) {
       const CostBreakdown time = price({.disc_tests = 10, .placements = 10}, costs, record.technique);
       CHECK(time.intersect == (record.ray_by_ray ? 50 : 30));
-      CHECK(time.build == (record.ray_by_ray ? 170 : 190));
+      CHECK(time.build == 170);
     }
     for (const Technique one_by_one : {Technique::octree, Technique::grid, Technique::bsp})
       CHECK(record_of(one_by_one).ray_by_ray);

@@ -70,10 +70,10 @@ TEST_SUITE("known answer") {
     usual.ray = 6e-9;
     UnitCosts slower = usual;
     for (const UnitCostTerm& term : unit_cost_terms) slower.*term.cost *= 3;
-    usual.uncached = 7e-9;  // of more discs than the runs have
+    usual.touch = 7e-9;  // repeated runs touch no memory for the first time
     const auto runs = exact_runs(slower, Technique::sphere_cache);
-    CHECK(validate::fit_costs(runs, Technique::sphere_cache, usual).costs.uncached == doctest::Approx(21e-9));
-    CHECK(validate::fit_costs(runs, Technique::sphere_cache).costs.uncached == 0);
+    CHECK(validate::fit_costs(runs, Technique::sphere_cache, usual).costs.touch == doctest::Approx(21e-9));
+    CHECK(validate::fit_costs(runs, Technique::sphere_cache).costs.touch == 0);
   }
 
   TEST_CASE("the fit recovers the costs that made the times") {

@@ -85,7 +85,8 @@ TEST_SUITE("identity") {
     CHECK(choice.discs == nullptr);
     REQUIRE(choice.candidates.size() == 1);
     const Candidate tree = choice.best().candidate;
-    CHECK(tree == Candidate{Technique::box_tree, validate::usual_shape(5000, 5000)});
+    const UnitCosts costs = validate::built_in_unit_costs()[Technique::box_tree];
+    CHECK(tree == Candidate{Technique::box_tree, validate::usual_shape(5000, 5000, costs.placement / costs.disc_test)});
     const auto index = validate::build_choice(choice, small.problem, {});
     CHECK(sim::run(small.problem, *index).hits == sim::run(small.problem, tree).hits);
     CHECK(validate::choose({.problem = &small.problem}, validate::built_in_unit_costs()).best().source ==

@@ -254,6 +254,7 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
       answer.analysis = validate::analyse(problem, answer.choice.candidates,
                                           {.disabled = disabled,
                                            .engine = engine,
+                                           .check_seconds = job.check_seconds,
                                            .threads = threads,
                                            .stop = stop,
                                            .predict = predict,

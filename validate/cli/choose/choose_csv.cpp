@@ -14,6 +14,7 @@ Json cells_of(const Prediction& ranked) {
   cells["threads"] = ranked.threads;
   cells.update(count_cells(ranked.counts, "predicted_"));
   cells["predicted_seconds"] = ranked.time.total();
+  cells["predicted_seconds_again"] = ranked.time.again();
   cells["extrapolated"] = !ranked.extrapolated.empty();
   cells["extrapolated_because"] = joined(ranked.extrapolated);
   return cells;
@@ -44,8 +45,8 @@ std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
   const Columns of_all{"tried", "regret", "rigor", "unit_costs", "choosing_seconds"};
   Table table(workload_columns() + effect_columns() + Columns{"warnings", "role"} + candidate_columns() +
               Columns{"engine", "threads"} + count_columns("predicted_") +
-              Columns{"predicted_seconds", "predicted_seconds_error", "could_still_win", "extrapolated",
-                      "extrapolated_because"} +
+              Columns{"predicted_seconds", "predicted_seconds_again", "predicted_seconds_error", "could_still_win",
+                      "extrapolated", "extrapolated_because"} +
               count_columns("predicted_error_") + count_columns("counted_") +
               Columns{"measured_seconds", "measured_spread", "given_up_after_seconds", "not_run", "why_not",
                       "seconds_ratio", "counts_ratio", "unit_costs_ratio", "worst_count", "worst_count_ratio"} +

@@ -35,6 +35,7 @@ Json candidate_json(const ChooseAnswer& answer, const ChooseRow& row) {
   if (row.predicted != nullptr) {
     json["predicted"] = to_json(row.predicted->counts);
     json["predicted_seconds"] = row.predicted->time.total();
+    json["predicted_seconds_again"] = row.predicted->time.again();
     json["tuned"] = row.predicted->tuned;
     json.update(extrapolated_json(row.predicted->extrapolated));
     if (const auto error = error_of(answer, row)) {
@@ -55,6 +56,7 @@ Json choice_json(const ChooseAnswer& answer, const ChooseRow& row) {
             {"threads", threads_of(row)}};
   if (row.predicted != nullptr) {
     json["predicted_seconds"] = row.predicted->time.total();
+    json["predicted_seconds_again"] = row.predicted->time.again();
     if (const auto error = error_of(answer, row)) json["predicted_seconds_error"] = *error;
     json.update(extrapolated_json(row.predicted->extrapolated));
   }

@@ -38,12 +38,13 @@ bool could_win(const ChooseAnswer& answer, const ChooseRow& row) {
 }
 
 std::string largest_part(const CostBreakdown& time) {
-  const std::array<std::pair<double, const char*>, 6> parts{{{time.order, "sorting samples"},
+  const std::array<std::pair<double, const char*>, 7> parts{{{time.order, "sorting samples"},
                                                              {time.build, "building the index"},
                                                              {time.rebuild, "ray-sphere tests"},
                                                              {time.copy, "copying lists"},
                                                              {time.traverse, "stepping through the index"},
-                                                             {time.intersect, "ray-disc tests"}}};
+                                                             {time.intersect, "ray-disc tests"},
+                                                             {time.touch, "touching new memory"}}};
   return std::max_element(parts.begin(), parts.end())->second;
 }
 

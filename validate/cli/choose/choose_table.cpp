@@ -119,7 +119,7 @@ std::string measured_table(const ChooseAnswer& answer, const Screen& screen) {
     const bool predicted = row == &rows.front();
     table.add({{std::string(name(row->candidate.technique)), style},
                {describe(row->candidate), style},
-               {row->predicted == nullptr ? "none" : fmt::format("{:.3g}", row->predicted->time.total())},
+               {row->predicted == nullptr ? "none" : fmt::format("{:.3g}", row->predicted->time.again())},
                measured[1],
                measured[2],
                measured[3],

@@ -36,7 +36,7 @@ std::string predicted_line(const ChooseAnswer& answer) {
   const validate::Analysed& run = answer.analysis->candidates.front();
   if (!run.predicted || !run.counted || !run.seconds) return "";
   const double error = error_of(answer, rows_of(answer).front()).value_or(0);
-  return fmt::format("predicted {:.3g}{} s{}, {}", run.predicted->time.total(),
+  return fmt::format("predicted {:.3g}{} s{}, {}", run.predicted->time.again(),
                      error > 0 ? fmt::format(" ± {:.1g}", error) : "",
                      answer.analysis->best == 0U ? "" : " for that choice",
                      causes(validate::prediction_error(*run.predicted, *run.counted, *run.seconds, answer.costs)));
@@ -89,7 +89,7 @@ std::vector<TextCell> measured_cells(const validate::Analysed& run) {
   cells[1].text = fmt::format("{:.3g}", *run.seconds);
   if (run.spread > 0) cells[1].text += fmt::format(" ± {:.1g}", run.spread);
   if (!run.predicted) return cells;
-  const double ratio = run.predicted->time.total() / *run.seconds;
+  const double ratio = run.predicted->time.again() / *run.seconds;
   const bool far_off = ratio > 2 || ratio < 0.5;
   cells[3] = {fmt::format("{:.2f}{}", ratio, far_off ? " !" : ""), far_off ? Style::doubtful : Style::plain};
   return cells;
@@ -164,7 +164,8 @@ void add_analysis(Json& json, const ChooseAnswer& answer) {
   json["predicted_choice"] = {{"technique", name(predicted.candidate.technique)},
                               {"parameters", to_json(predicted.candidate)},
                               {"threads", predicted.threads},
-                              {"predicted_seconds", predicted.time.total()}};
+                              {"predicted_seconds", predicted.time.total()},
+                              {"predicted_seconds_again", predicted.time.again()}};
   if (analysis.best) {
     const validate::Analysed& best = analysis.candidates[*analysis.best];
     json["best_measured"] = {{"technique", name(best.candidate.technique)},

@@ -58,6 +58,12 @@ std::optional<Counts<double>> prediction(const validate::Job& job, const RunAnsw
   }
 }
 
+/// The counts, with the memory that belongs to them.
+Counts<std::uint64_t> counted(const RunAnswer& answer) {
+  const Counts<std::uint64_t>& counts = answer.run.outcome.counts;
+  return has_technique(answer) ? with_bytes_touched(counts, answer.candidate, answer.engine) : counts;
+}
+
 void add_stops(const Workload& workload, const Candidate& candidate, const CostTable& costs, Json& json) {
   const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters);
   if (cache == nullptr) return;
@@ -168,7 +174,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                  {"missed_share", answer.run.missed.share},
                  {"missed_share_bound", answer.run.missed.upper_bound}});
   if (answer.until) json.update(to_json(*answer.until));
-  json["counts"] = to_json(outcome.counts);
+  json["counts"] = to_json(counted(answer));
   json.update(unit_times(as_expected(outcome.counts), answer.candidate.technique));
   if (answer.choice) json["choosing_seconds"] = answer.choice->choosing_seconds;
   if (is_predicted(answer)) {
@@ -178,12 +184,13 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   if (const auto predicted = prediction(job, answer); predicted && !answer.until) {
     json["predicted"] = to_json(*predicted);
     json.update(unit_times(*predicted, answer.candidate.technique, "predicted_"));
-    const double search =
-        price(*predicted, answer.costs, answer.candidate.technique, sim::useful_threads(answer.threads)).total();
+    const CostBreakdown search =
+        price(*predicted, answer.costs, answer.candidate.technique, sim::useful_threads(answer.threads));
     const double errors =
         answer.standard_error ? validate::standard_error_seconds(predicted->hits, job.numbered(), answer.costs) : 0;
-    json["predicted_seconds"] =
-        (search + errors) / static_cast<double>(std::max<std::size_t>(1, answer.run.rank_seconds.size()));
+    const auto ranks = static_cast<double>(std::max<std::size_t>(1, answer.run.rank_seconds.size()));
+    json["predicted_seconds"] = (search.total() + errors) / ranks;
+    json["predicted_seconds_again"] = (search.again() + errors) / ranks;
   }
   json.update({{"seconds", seconds_json(answer.timing, answer.repeat)},
                {"read_seconds", job.read_seconds},
@@ -260,28 +267,30 @@ std::string_view meaning(std::string_view term) {
       {"placements", "discs put into cells or nodes while building"},
       {"made", "nodes of a tree of boxes or spheres made"},
       {"sorted", "discs sorted along a curve"},
-      {"hits", "pairs of a ray and a disc that it hits"}};
+      {"hits", "pairs of a ray and a disc that it hits"},
+      {"bytes_touched", "memory of a first search, by the sizes of its arrays"}};
   return meanings.at(term);
 }
 
 std::string counts_table(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
   const auto predicted = answer.until ? std::nullopt : prediction(job, answer);
+  const Counts<std::uint64_t> counts = counted(answer);
   TextTable table({{.head = "count", .align = Align::left},
                    {.head = "counted"},
                    {.head = "predicted"},
                    {.head = "predicted / counted", .spare = 2},
                    {.head = "meaning", .align = Align::left, .spare = 1}});
   for (const auto& [term, count] : count_terms<std::uint64_t>) {
-    const auto counted = static_cast<double>(answer.run.outcome.counts.*count);
-    if (counted == 0) continue;
+    const auto found = static_cast<double>(counts.*count);
+    if (found == 0) continue;
     double expected = 0;
     if (predicted && !answer.run.outcome.stopped)
       for (const auto& [other, value] : count_terms<double>)
         if (other == term) expected = (*predicted).*value;
     table.add({{std::string(term)},
-               {fmt::format("{:.0f}", counted)},
+               {fmt::format("{:.0f}", found)},
                {expected > 0 ? fmt::format("{:.4g}", expected) : ""},
-               {expected > 0 ? fmt::format("{:.2f}", expected / counted) : ""},
+               {expected > 0 ? fmt::format("{:.2f}", expected / found) : ""},
                {std::string(meaning(term))}});
   }
   return table.text(screen);
@@ -302,6 +311,7 @@ Columns run_columns() {
          count_columns() + count_columns("predicted_") +
          Columns{"rebuild_time", "intersect_time", "predicted_rebuild_time", "predicted_intersect_time"} +
          Columns{"predicted_seconds",
+                 "predicted_seconds_again",
                  "predicted_seconds_error",
                  "choosing_seconds",
                  "seconds",

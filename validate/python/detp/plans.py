@@ -71,6 +71,7 @@ class Plan:
         self.discs = int(facts.discs)
         self.threads = int(facts.threads)  #: of a search
         self.predicted_seconds = float(facts.predicted_seconds)  #: of a search, building the index included
+        self.predicted_seconds_again = float(facts.predicted_seconds_again)  #: of a repeated one, in the same memory
         self.predicted_error = float(facts.predicted_error)  #: its standard error; 0: not known
         self.planning_seconds = float(facts.planning_seconds)
         self._local = threading.local()

@@ -13,26 +13,26 @@ TEST_SUITE("end to end") {
         if (tip.at("input") == "rays" && tip.at("change") == "technique" && tip.at("ratio") < 1) return tip;
       return Json();
     };
-    for (const char* const rigor : {"", " --rigor structural", " --rigor estimate"}) {
+    for (const auto& [rays, rigor] : {std::pair(60, ""), {60, " --rigor structural"}, {100, " --rigor estimate"}}) {
       CAPTURE(rigor);
-      const Json json = result_of(scene + "150" + rigor);
+      const std::string line = scene + std::to_string(rays) + rigor;
+      const Json json = result_of(line);
       REQUIRE(json.at("choice").at("technique") == "box-tree");
       const Json tip = fewer_rays(json);
       REQUIRE(tip.is_object());
       CHECK(tip.at("technique") == "brute-force");
       CHECK(tip.at("threads") == 1);
       CHECK(tip.at("parameters").is_object());
-      CHECK(tip.at("at").get<double>() == doctest::Approx(150 * tip.at("ratio").get<double>()));
+      CHECK(tip.at("at").get<double>() == doctest::Approx(rays * tip.at("ratio").get<double>()));
       CHECK(json.at("tips_seconds") > 0);
       for (const char* const detail : {"", " --verbose"}) {
-        const std::string text =
-            std::regex_replace(detp(scene + "150" + rigor + detail).out, std::regex("\n {10}"), " ");
+        const std::string text = std::regex_replace(detp(line + detail).out, std::regex("\n {10}"), " ");
         CHECK(text.find("\ntips      ") != std::string::npos);
         CHECK(text.find("brute-force is faster with ") != std::string::npos);
         CHECK(text.find(fmt::format("{:.0f} rays or fewer", tip.at("at").get<double>())) != std::string::npos);
       }
-      const auto rays = static_cast<int>(0.9 * tip.at("at").get<double>());
-      const Json there = result_of(fmt::format("{}{}{}", scene, rays, rigor));
+      const auto fewer = static_cast<int>(0.9 * tip.at("at").get<double>());
+      const Json there = result_of(fmt::format("{}{}{}", scene, fewer, rigor));
       CHECK(there.at("choice").at("technique") == "brute-force");
     }
     const Json without = result_of(scene + "150 --disable brute-force");

@@ -161,9 +161,24 @@ TEST_SUITE("end to end") {
     const Json model = result_of("model --costs t=3,v=7" + numbers).at("inputs");
     CHECK(model.at("form") == "corrected");
     CHECK(model.at("levels") == 64);
-    CHECK(model.at("unit_costs") == Json{{"t", 3}, {"u", 0}, {"w", 0}, {"v", 7}, {"n", 0}, {"c", 0}, {"b", 0},
-                                         {"p", 0}, {"g", 0}, {"s", 0}, {"r", 0}, {"l", 0}, {"h", 0}, {"i", 0},
-                                         {"e", 0}, {"m", 0}, {"o", 0}, {"f", 0}, {"y", 0}, {"a", 0}});
+    CHECK(model.at("unit_costs") == Json{{"t", 3},
+                                         {"u", 0},
+                                         {"w", 0},
+                                         {"v", 7},
+                                         {"n", 0},
+                                         {"c", 0},
+                                         {"b", 0},
+                                         {"g", 0},
+                                         {"s", 0},
+                                         {"r", 0},
+                                         {"l", 0},
+                                         {"h", 0},
+                                         {"i", 0},
+                                         {"e", 0},
+                                         {"m", 0},
+                                         {"y", 0},
+                                         {"z", 0},
+                                         {"a", 0}});
     const Json choose = result_of("choose --costs t=3,u=2,w=1,v=1,n=1" + numbers).at("inputs");
     CHECK(choose.at("unit_costs").at("t") == 3);
     CHECK(choose.at("unit_costs").at("c") == 0);
