@@ -158,8 +158,8 @@ bool holds_a_disc(const Valid<Workload>& workload, double ratio) {
 
 double time_at_any_ratio(const Valid<Workload>& workload, const Valid<UnitCosts>& costs) {
   const double visits = blocks_of(workload.rays, workload.samples) * workload.samples;
-  return costs.ray * workload.rays + costs.hit * expected_hits(workload) + costs.far * far_discs({.visits = visits, .sorted = workload.samples}) +
-         costs.start;
+  return costs.ray * workload.rays + costs.hit * expected_hits(workload) +
+         costs.far * far_discs({.visits = visits, .sorted = workload.samples}) + costs.start;
 }
 
 BestRatio best_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,

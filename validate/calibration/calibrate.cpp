@@ -169,7 +169,7 @@ class Calibrator {
     if (!one.timed()) return;
     TechniqueRuns& runs = runs_.of(timed.engine, timed.candidate.technique);
     runs.on_one_thread.push_back(
-        {place, timed.counts, one.seconds() + checks.discs + checks.rays, one.preparing() + checks.discs});
+        {place, timed.counts, one.usual_seconds() + checks.discs + checks.rays, one.usual_preparing() + checks.discs});
     for (std::size_t i = 1; i < timed.numbers.size(); ++i)
       if (const RoundTimes& more = timed.times[i]; more.timed() && more.agree())
         runs.on_more.push_back(
