@@ -39,7 +39,7 @@ struct BuiltIn {
   ThreadCosts threads = {};
 };
 
-// The mean of three runs of detp calibrate --seconds 40, on a quiet machine: two virtual cores of an Intel Xeon at 2.8 GHz (Ice Lake,
+// The mean of three runs of detp calibrate --seconds 40, by the shortest times, on a quiet machine: two virtual cores of an Intel Xeon at 2.8 GHz (Ice Lake,
 // AVX-512, 1.25 MiB of second-level cache a core). Costs of threads are those of two threads; those of more are extrapolated. z: in
 // large pages.
 constexpr BuiltIn of_simd[] = {

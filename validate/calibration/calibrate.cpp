@@ -13,6 +13,7 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/base/stop_after.hpp"
+#include "detp/validate/statistics/statistics.hpp"
 #include "fit_all.hpp"
 #include "round_times.hpp"
 #include "timed_workloads.hpp"
@@ -52,7 +53,8 @@ class Calibrator {
     result_.workloads = workloads_.size();
     result_.stopped = options_.stop.stop_requested();
     if (wall_seconds_ > 0) result_.processor_share = processor_seconds_ / wall_seconds_;
-    for (const Timed& one : timed_) store(one);
+    const double usual = usual_over_shortest();
+    for (const Timed& one : timed_) store(one, usual);
     fit_all(runs_, result_);
     set_touch_cost(result_);
     result_.seconds = watch_.seconds();
@@ -162,14 +164,23 @@ class Calibrator {
     }
   }
 
-  void store(const Timed& timed) {
+  /// Users wait what is usual, not the shortest time. Much more than that is other programs' doing.
+  [[nodiscard]] double usual_over_shortest() const {
+    constexpr double most = 1.1;
+    std::vector<double> ratios;
+    for (const Timed& one : timed_)
+      if (one.times.front().timed()) ratios.push_back(one.times.front().usual_over_shortest());
+    return ratios.empty() ? 1 : std::min(most, median(std::move(ratios)));
+  }
+
+  void store(const Timed& timed, double usual) {
     const RoundTimes& one = timed.times.front();
     const std::size_t place = timed.workload->place;
     const CheckSeconds& checks = timed.workload->checks;
     if (!one.timed()) return;
     TechniqueRuns& runs = runs_.of(timed.engine, timed.candidate.technique);
-    runs.on_one_thread.push_back(
-        {place, timed.counts, one.usual_seconds() + checks.discs + checks.rays, one.usual_preparing() + checks.discs});
+    runs.on_one_thread.push_back({place, timed.counts, usual * one.seconds() + checks.discs + checks.rays,
+                                  usual * one.preparing() + checks.discs});
     for (std::size_t i = 1; i < timed.numbers.size(); ++i)
       if (const RoundTimes& more = timed.times[i]; more.timed() && more.agree())
         runs.on_more.push_back(

@@ -48,7 +48,8 @@ struct Calibration : CalibrationQuality {
 /// The first half of the time goes to making as many workloads as it suffices for, and timing their candidates once. Rounds over all
 /// of them follow, so that seconds lie between two times of a candidate: a processor that is slow for a while is so for one of them. In a
 /// round, a candidate is run twice in succession, the first time for the caches; the shortest time counts, of the wall clock or of the
-/// processor: time that other programs took is no cost. Of the rounds counts the median. A candidate whose shortest times of two of three
+/// processor: time that other programs took is no cost. Of all rounds, too; all costs are then multiplied by the
+/// median over the candidates of their rounds' median over the shortest, at most 1.1. A candidate whose shortest times of two of three
 /// rounds agree within 5 % is timed no more. On every second workload, each run of the simd engine whose work is divided alternates with runs on 2, 4, … threads, by the
 /// wall clock; if these times never agree, they are left out.
 ///

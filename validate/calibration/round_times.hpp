@@ -9,7 +9,7 @@ namespace detp::validate {
 
 /// The times of one candidate on one number of threads, taken in rounds. The runs of a round follow each other, so that
 /// the data are in the caches; their shortest time counts. Between two rounds other candidates run, so that a disturbance
-/// by other programs rarely lasts for both. The median of the rounds is what a user waits, the shortest what the machine can do.
+/// by other programs rarely lasts for both.
 class RoundTimes {
  public:
   void begin_round() {
@@ -40,18 +40,16 @@ class RoundTimes {
 
   [[nodiscard]] double seconds() const { return *std::min_element(seconds_.begin(), seconds_.end()); }
   [[nodiscard]] double preparing() const { return *std::min_element(preparing_.begin(), preparing_.end()); }
-  /// The same in the median of the rounds, of two the shorter.
-  [[nodiscard]] double usual_seconds() const { return usual(seconds_); }
-  [[nodiscard]] double usual_preparing() const { return usual(preparing_); }
+  /// The median of the rounds' seconds over the shortest; of two rounds 1.
+  [[nodiscard]] double usual_over_shortest() const {
+    std::vector<double> rounds = seconds_;
+    const auto middle = rounds.begin() + static_cast<std::ptrdiff_t>((rounds.size() - 1) / 2);
+    std::nth_element(rounds.begin(), middle, rounds.end());
+    return *middle / seconds();
+  }
 
  private:
   static constexpr double unknown = std::numeric_limits<double>::infinity();
-
-  [[nodiscard]] static double usual(std::vector<double> rounds) {
-    const auto middle = rounds.begin() + static_cast<std::ptrdiff_t>((rounds.size() - 1) / 2);
-    std::nth_element(rounds.begin(), middle, rounds.end());
-    return *middle;
-  }
 
   std::vector<double> seconds_;  ///< the shortest of each round
   std::vector<double> preparing_;

@@ -32,6 +32,8 @@ TEST_SUITE("known answer") {
     CHECK(times.seconds() == 1.5);
     CHECK(times.preparing() == 0.75);
     CHECK(times.timed());
+    CHECK(times.usual_over_shortest() == 1);
+    CHECK(times_of({{4, 3}, {1.5, 2}, {2, 9}}).usual_over_shortest() == doctest::Approx(2 / 1.5));
   }
 
   TEST_CASE("without a run there is no time") {
