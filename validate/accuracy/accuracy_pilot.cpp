@@ -278,6 +278,12 @@ GrowingSeconds PilotMaker::seconds_of(const SettingPilot& setting, double judged
                          {share * judged_hits_per_ray, setting.setting.radius / edge_, setting.scale});
 }
 
+double PilotMaker::fixed_seconds() const {
+  double surfaces = 0;  // the same for all estimators
+  for (const EstimatorPilot& one : settings_of(1)) surfaces = std::max(surfaces, costs_.surfaces(one.estimator));
+  return costs_.caster() + surfaces;
+}
+
 double PilotMaker::predicted_seconds(double rays, std::uint64_t paths, const AccuracyPilot* before) const {
   constexpr double usual_casts_per_path = 5;
   const auto samples = static_cast<double>(judged_.samples.size());

@@ -124,8 +124,9 @@ class PilotMaker {
   [[nodiscard]] std::uint64_t first_paths() const;
   /// Rays of a first pilot: usual_pilot_rays, or fewer if these would take longer than options.least_price.
   [[nodiscard]] double first_rays() const;
-  /// Seconds of a pilot with so many rays and paths in all, after `before`, by AccuracyCosts. What the answer needs, too, is not counted:
-  /// building what traces rays, and what estimators need of the mesh.
+  /// Seconds of making what traces rays, and of what estimators need of the mesh, once for all pilots, by AccuracyCosts.
+  [[nodiscard]] double fixed_seconds() const;
+  /// Seconds of a pilot with so many rays and paths in all, after `before`, by AccuracyCosts, without fixed_seconds.
   [[nodiscard]] double predicted_seconds(double rays, std::uint64_t paths, const AccuracyPilot* before) const;
 
   /// Whether rehearse knows the estimator: its photons, or paths, bring sums of powers (not nearest).

@@ -54,7 +54,11 @@ void settle(AccuracyPilot& pilot, const AccuracyPlan& plan) {
 class Planner {
  public:
   Planner(sim::Scene& scene, const AccuracyTarget& target, const AccuracyPilotOptions& options, double most_rays)
-      : target_(target), options_(options), most_rays_(most_rays), maker_(scene, options) {}
+      : target_(target),
+        options_(options),
+        most_rays_(most_rays),
+        maker_(scene, options),
+        predicted_(maker_.fixed_seconds()) {}
 
   PilotedPlan plan() && {
     try {
@@ -148,7 +152,7 @@ class Planner {
     std::optional<AccuracyPlan> plan;
     bool stopped = false;
   } found_;
-  double predicted_ = 0;  // seconds of all pilots
+  double predicted_;  // seconds of all pilots, with what they need
 };
 
 }  // namespace
