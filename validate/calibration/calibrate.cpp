@@ -80,14 +80,15 @@ class Calibrator {
     std::vector<RoundTimes> times = {};
 
     [[nodiscard]] bool agrees() const {
-      return std::all_of(times.begin(), times.end(), [](const RoundTimes& one) { return one.agree(); });
+      constexpr std::size_t enough = 3;  // rounds, for a median
+      return std::all_of(times.begin(), times.end(),
+                         [](const RoundTimes& one) { return one.rounds() >= enough && one.agree(); });
     }
   };
 
-  /// After the second round, which tells whether a time was disturbed.
+  /// Not before the second round, which tells whether a time was disturbed.
   [[nodiscard]] bool is_over(int round) const {
-    const double most = round == 1 ? 2 * options_.seconds : options_.seconds;
-    return options_.stop.stop_requested() || watch_.seconds() >= most;
+    return options_.stop.stop_requested() || (round > 1 && watch_.seconds() >= options_.seconds);
   }
 
   void report() const {

@@ -22,6 +22,7 @@ class RoundTimes {
     preparing_.back() = std::min(preparing_.back(), preparing);
   }
 
+  [[nodiscard]] std::size_t rounds() const { return seconds_.size(); }
   [[nodiscard]] bool timed() const { return !seconds_.empty() && seconds() > 0 && seconds() < unknown; }
 
   /// Whether the shortest times of two rounds agree. A time that only one round reached may be a stroke of luck, such as a
@@ -34,8 +35,7 @@ class RoundTimes {
       next = std::min(next, std::max(one, least));
       least = std::min(least, one);
     }
-    constexpr std::size_t enough = 3;  // for a median
-    return seconds_.size() >= enough && next <= (1 + tolerance) * least;
+    return next < unknown && next <= (1 + tolerance) * least;
   }
 
   [[nodiscard]] double seconds() const { return *std::min_element(seconds_.begin(), seconds_.end()); }

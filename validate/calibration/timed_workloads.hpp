@@ -26,7 +26,7 @@ struct TimedWorkload {
   return workload.samples > many || workload.rays > many;
 }
 
-inline constexpr std::size_t least_workloads = 8;  ///< measured even if that takes longer than asked
+inline constexpr std::size_t least_workloads = 12;  ///< measured even if that takes longer than asked
 
 /// First least_workloads small ones; then small and large, sparse and dense ones mixed, so that any first part of them can
 /// be fitted.

@@ -22,8 +22,7 @@ TEST_SUITE("known answer") {
     CHECK_FALSE(times_of({}).agree());
     CHECK_FALSE(times_of({{1, 1, 1}}).agree());
     CHECK_FALSE(times_of({{1, 1}, {2, 1.2}}).agree());
-    CHECK_FALSE(times_of({{1, 9}, {5, 1.04}}).agree());
-    CHECK(times_of({{1, 9}, {5, 1.04}, {2}}).agree());
+    CHECK(times_of({{1, 9}, {5, 1.04}}).agree());
     CHECK(times_of({{4}, {3}, {1}, {2}, {1.02}}).agree());
   }
 
