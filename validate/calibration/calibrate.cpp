@@ -12,6 +12,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "detp/validate/base/in_turns.hpp"
 #include "detp/validate/base/stop_after.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "fit_all.hpp"
@@ -25,10 +26,8 @@ namespace {
 constexpr double longest_run = 0.012;     ///< seconds; a longer run is stopped and left out
 constexpr double longest_of_large = 0.2;  ///< the same with many discs or many rays
 constexpr double share_of_first = 0.5;    ///< of the time, for the first round over the workloads
-constexpr int most_rounds = 8;
-constexpr int most_repeats = 2;            ///< in a round
-constexpr double enough_in_round = 0.002;  ///< seconds after which a run is not repeated in the same round
-constexpr double long_run = 0.006;         ///< seconds; a shorter run is repeated once at least, to find warm caches
+constexpr int further_rounds = 7;
+constexpr double long_run = 0.006;  ///< seconds; a shorter run is repeated once in a round, to find warm caches
 
 class Calibrator {
  public:
@@ -44,12 +43,13 @@ class Calibrator {
       report();
       add(all[i], i);
     }
-    for (int round = 1; round < most_rounds; ++round)
-      for (Timed& one : timed_) {
-        if (is_over(round)) break;
-        report();
-        if (!one.agrees()) time(one);
-      }
+    const auto begin = [](int) { return true; };
+    in_turns(timed_.size(), further_rounds, begin, [&](std::size_t i, int round) {
+      if (is_over(round)) return false;
+      report();
+      if (!timed_[i].agrees()) time(timed_[i]);
+      return true;
+    });
     result_.workloads = workloads_.size();
     result_.stopped = options_.stop.stop_requested();
     if (wall_seconds_ > 0) result_.processor_share = processor_seconds_ / wall_seconds_;
@@ -86,9 +86,9 @@ class Calibrator {
     }
   };
 
-  /// Not before the second round, which tells whether a time was disturbed.
+  /// Not before the first further round, which tells whether a time was disturbed.
   [[nodiscard]] bool is_over(int round) const {
-    return options_.stop.stop_requested() || (round > 1 && watch_.seconds() >= options_.seconds);
+    return options_.stop.stop_requested() || (round > 0 && watch_.seconds() >= options_.seconds);
   }
 
   void report() const {
@@ -143,7 +143,7 @@ class Calibrator {
   void time(Timed& one) {
     for (RoundTimes& times : one.times) times.begin_round();
     double timed = 0;
-    for (int i = 0; i < most_repeats && timed < (i < 2 ? long_run : enough_in_round); ++i) {
+    for (int i = 0; i < 2 && timed < long_run; ++i) {
       for (std::size_t j = 0; j < one.numbers.size(); ++j) {
         const sim::ProcessorStopwatch processor;
         const sim::Outcome outcome =
