@@ -44,9 +44,12 @@ double results_bytes(const SharedSearch& search) {
   return search.discs * (result_bytes + (search.standard_errors ? error_results : 0));
 }
 
-/// Of the photon paths that a rank counts, the share that it keeps.
+/// Several ranks count photon paths before they search them; one alone counts them as it searches.
+bool counts_ahead(const SharedSearch& search, double ranks) { return search.photon_paths && ranks > 1; }
+
+/// Of the photon paths that a rank counts ahead, the share that it keeps.
 double kept_share(const SharedSearch& search, double ranks) {
-  return search.photon_paths ? std::min(1.0, search.kept_bytes / (kept_ray_bytes * search.rays / ranks)) : 0;
+  return counts_ahead(search, ranks) ? std::min(1.0, search.kept_bytes / (kept_ray_bytes * search.rays / ranks)) : 0;
 }
 
 double fixed_bytes(const SharedSearch& search, double ranks) {
@@ -105,7 +108,7 @@ SharedTime share_rays(const SharedSearch& search, double ranks, const Network& n
   const double subtrees = std::max(1.0, 2 * std::log2(own_blocks));
   const double errors = search.standard_errors ? error_sums + 8 * subtrees : 0;
   const double message = ranks > 1 ? search.discs * (sums_bytes + 8 * subtrees + errors) : 0;
-  return {.count = search.photon_paths ? search.make_seconds / ranks : 0,
+  return {.count = counts_ahead(search, ranks) ? search.make_seconds / ranks : 0,
           .make = share * (1 - kept_share(search, ranks)) * search.make_seconds,
           .build = search.build_seconds,
           .search = share * search.search_seconds,
@@ -119,7 +122,7 @@ SharedTime share_discs(const SharedSearch& search, double ranks, const Network& 
   const double discs = std::ceil(search.discs / ranks);
   const double result = number_bytes + result_bytes + (search.standard_errors ? error_results : 0);
   const double message = ranks > 1 ? discs * result : 0;
-  return {.count = search.photon_paths ? search.make_seconds / ranks : 0,
+  return {.count = counts_ahead(search, ranks) ? search.make_seconds / ranks : 0,
           .make = (1 - kept_share(search, ranks) / ranks) * search.make_seconds,
           .build = search.build_seconds / ranks,
           .search = search.each_ray_seconds + (search.search_seconds - search.each_ray_seconds) / ranks,

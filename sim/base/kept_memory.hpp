@@ -16,10 +16,11 @@ class KeptMemory {
  public:
   explicit KeptMemory(const std::string& path) : what_("what is kept of " + shown_path(path)) {}
 
-  /// Appends to the vector. Throws std::length_error as require_memory does.
+  /// Appends to the vector, which will have about `expected` elements (0: not known). Throws std::length_error as require_memory does.
   template <class T>
-  void push(std::vector<T>& to, T value) {
-    if (to.size() == to.capacity()) reserve(to, std::max<std::size_t>(64, 2 * to.size()));
+  void push(std::vector<T>& to, T value, std::size_t expected = 0) {
+    if (to.size() == to.capacity())
+      reserve(to, expected > to.size() ? expected : std::max<std::size_t>(64, 2 * to.size()));
     to.push_back(std::move(value));
   }
 

@@ -4,8 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
+#include <span>
+#include <system_error>
 #include <utility>
 
+#include "detp/sim/base/parallel.hpp"
 #include "file_error.hpp"
 #include "number_text.hpp"
 #include "text_lines.hpp"
@@ -24,14 +28,32 @@ class CsvReader {
     for (std::size_t i = 0; i < row_.columns().size(); ++i)
       if (!is_given(i)) row_.set_absent(i);
     std::size_t rows = 0;
-    for (; next_line(); ++rows) {
+    const std::optional<std::uint64_t> begin = file_.rest();
+    std::size_t next_pass = rows_of_estimate + 1;  // the number of rows from which on lines are parsed together
+    while (true) {
+      if (rows >= next_pass) {
+        rows += read_together(sink);
+        next_pass = rows + lines_apart;
+      }
+      if (!next_line()) return rows;
       read_row();
+      if (rows++ == rows_of_estimate && begin) expect_rows(*begin);
       sink(row_);
     }
-    return rows;
   }
 
  private:
+  static constexpr std::size_t rows_of_estimate = 64;
+  static constexpr std::size_t lines_apart = 256;  ///< where some are not plain numbers
+
+  /// By the bytes of the first rows.
+  void expect_rows(std::uint64_t begin) {
+    constexpr double room = 1.02;
+    const auto rest = static_cast<double>(file_.rest().value_or(0));
+    const double bytes = static_cast<double>(begin) - rest;
+    row_.expect(static_cast<std::size_t>(room * rows_of_estimate * static_cast<double>(begin) / std::max(1.0, bytes)));
+  }
+
   [[nodiscard]] std::string known_names() const {
     std::vector<std::string_view> names;
     for (const TableColumn& column : row_.columns()) names.push_back(column.name);
@@ -73,12 +95,85 @@ class CsvReader {
 
   void read_row() {
     std::string_view line = lines_.line();
+    row_.place(lines_.number());
+    if (are_plain_numbers(line, [&](std::size_t i, double value) { row_.set(order_[i], value); })) return;
     const std::size_t fields = fields_in(line);
     if (fields != order_.size())
       lines_.fail(fmt::format("{} fields, but the header has {} columns", fields, order_.size()));
     for (const std::size_t column : order_)
       row_.set(column, number(row_.columns()[column], trimmed(cut_until(line, ","))));
-    row_.place(lines_.number());
+  }
+
+  /// Calls set(i, number) for each column if the line has numbers alone, without blanks, signs + or empty fields, none of them out of the range of
+  /// doubles.
+  template <class Set>
+  [[nodiscard]] bool are_plain_numbers(std::string_view line, const Set& set) const {
+    const char* next = line.data();
+    const char* const end = next + line.size();
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      double value = 0;
+      const auto [stop, error] = std::from_chars(next, end, value);
+      const bool is_last = i + 1 == order_.size();
+      if (error != std::errc{} || (is_last ? stop != end : stop == end || *stop != ',')) return false;
+      set(i, value);
+      next = stop + 1;
+    }
+    return true;
+  }
+
+  /// Some lines, and their numbers row by row.
+  struct Part {
+    std::string_view text = {};
+    std::vector<double> numbers = {};
+    bool is_plain = true;
+  };
+
+  void parse(Part& part) const {
+    part.numbers.clear();
+    part.is_plain = true;
+    for (std::string_view text = part.text; !text.empty();) {
+      std::string_view line = text.substr(0, text.find('\n'));
+      text.remove_prefix(line.size() + 1);
+      if (line.ends_with('\r')) line.remove_suffix(1);
+      if (are_plain_numbers(line, [&](std::size_t, double value) { part.numbers.push_back(value); })) continue;
+      part.is_plain = false;
+      return;
+    }
+  }
+
+  /// Several threads parse the next lines, as long as these are plain numbers and the file is long. Returns the number of rows.
+  std::size_t read_together(const TableSink& sink) {
+    constexpr std::size_t at_once = std::size_t{1} << 17;
+    constexpr std::size_t of_part = std::size_t{1} << 13;
+    lines_.finish_line();
+    std::size_t rows = 0;
+    std::vector<Part> parts;
+    while (file_.fetch(at_once)) {
+      std::string_view text = file_.buffered().substr(0, at_once);
+      text = text.substr(0, text.rfind('\n') + 1);
+      if (text.empty()) return rows;  // a long line
+      std::size_t count_of_parts = 0;
+      for (; !text.empty(); ++count_of_parts) {
+        const std::size_t end = std::min(text.find('\n', std::min(of_part, text.size() - 1)), text.size() - 1);
+        if (count_of_parts == parts.size()) parts.emplace_back();
+        parts[count_of_parts].text = text.substr(0, end + 1);
+        text.remove_prefix(end + 1);
+      }
+      sim::parallel_for(std::size_t{0}, count_of_parts, [&](std::size_t i) { parse(parts[i]); });
+      for (const Part& part : std::span(parts).first(count_of_parts)) {
+        if (!part.is_plain) return rows;
+        const std::size_t count = part.numbers.size() / order_.size();
+        for (std::size_t i = 0; i < count; ++i) {
+          for (std::size_t column = 0; column < order_.size(); ++column)
+            row_.set(order_[column], part.numbers[i * order_.size() + column]);
+          row_.place(lines_.number() + i + 1);
+          sink(row_);
+        }
+        lines_.skip(count, part.text.size());
+        rows += count;
+      }
+    }
+    return rows;
   }
 
   [[nodiscard]] double number(const TableColumn& column, std::string_view field) const {

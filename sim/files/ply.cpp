@@ -59,7 +59,7 @@ class BodyReader {
     }
   }
 
-  double number(const PlyElement& element, const PlyProperty& property, PlyType type) {
+  double number(const PlyElement& element, const PlyProperty& property, NumberType type) {
     const auto value = source_.next(type);
     if (!value) fail(element, source_.missing_number_reason(detp::quoted(property.name)));
     return *value;

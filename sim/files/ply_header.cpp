@@ -15,18 +15,17 @@ namespace {
 struct TypeNames {
   std::string_view old_name;
   std::string_view sized_name;
-  std::size_t size;
 };
 
-/// In the order of PlyType.
-constexpr std::array<TypeNames, 8> types{{{"char", "int8", 1},
-                                          {"uchar", "uint8", 1},
-                                          {"short", "int16", 2},
-                                          {"ushort", "uint16", 2},
-                                          {"int", "int32", 4},
-                                          {"uint", "uint32", 4},
-                                          {"float", "float32", 4},
-                                          {"double", "float64", 8}}};
+/// In the order of NumberType, which has more.
+constexpr std::array<TypeNames, 8> types{{{"char", "int8"},
+                                          {"uchar", "uint8"},
+                                          {"short", "int16"},
+                                          {"ushort", "uint16"},
+                                          {"int", "int32"},
+                                          {"uint", "uint32"},
+                                          {"float", "float32"},
+                                          {"double", "float64"}}};
 
 constexpr std::size_t most_bytes = 1 << 18;
 
@@ -104,7 +103,7 @@ class HeaderReader {
     std::string_view type = cut_word(words);
     if (type == "list") {
       property.count_type = type_named(cut_word(words));
-      if (*property.count_type >= PlyType::float32) fail("the length of a list needs a type of whole numbers");
+      if (*property.count_type >= NumberType::float32) fail("the length of a list needs a type of whole numbers");
       type = cut_word(words);
     }
     property.type = type_named(type);
@@ -116,9 +115,9 @@ class HeaderReader {
     header_.elements.back().properties.push_back(std::move(property));
   }
 
-  [[nodiscard]] PlyType type_named(std::string_view name) const {
+  [[nodiscard]] NumberType type_named(std::string_view name) const {
     for (std::size_t i = 0; i < types.size(); ++i)
-      if (name == types[i].old_name || name == types[i].sized_name) return static_cast<PlyType>(i);
+      if (name == types[i].old_name || name == types[i].sized_name) return static_cast<NumberType>(i);
     fail(detp::quoted(name) + " is not a type; known types are char, uchar, short, ushort, int, uint, float, double");
   }
 
@@ -131,8 +130,6 @@ class HeaderReader {
 };
 
 }  // namespace
-
-std::size_t size_of(PlyType type) { return types[static_cast<std::size_t>(type)].size; }
 
 std::optional<std::size_t> PlyElement::property(std::string_view wanted, bool list) const {
   for (std::size_t i = 0; i < properties.size(); ++i)

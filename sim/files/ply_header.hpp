@@ -8,21 +8,17 @@
 #include <vector>
 
 #include "input_file.hpp"
+#include "number_bytes.hpp"
 
 /// The header of a PLY file: what the file's body contains, and in which format.
 namespace detp::sim {
-
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-/// Size of one number in a binary file, bytes.
-[[nodiscard]] std::size_t size_of(PlyType type);
 
 enum class PlyFormat { ascii, little_endian, big_endian };
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::float32;
-  std::optional<PlyType> count_type;  ///< type of the entry count in front of a list; none: a single number
+  NumberType type = NumberType::float32;
+  std::optional<NumberType> count_type;  ///< type of the entry count in front of a list; none: a single number
 };
 
 /// One kind of row.

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "input_file.hpp"
+#include "number_bytes.hpp"
 #include "number_text.hpp"
 #include "ply_header.hpp"
-#include "ply_number.hpp"
 
 /// The numbers of a PLY file's body in sequence.
 namespace detp::sim {
@@ -20,7 +20,7 @@ class PlyText {
   PlyText(InputFile& file, std::size_t lines_before) : file_(file), line_(lines_before + 1) {}
 
   /// The minimum number of bytes of a number: a digit and a separator.
-  static std::uint64_t least_size(PlyType) { return 2; }
+  static std::uint64_t least_size(NumberType) { return 2; }
 
   /// One more than the number of bytes that follow, because the last number needs no separator; nullopt if unknown.
   [[nodiscard]] std::optional<std::uint64_t> rest() const {
@@ -29,7 +29,7 @@ class PlyText {
   }
 
   /// The next number; nullopt at the end of the file or if the next word is not a number.
-  std::optional<double> next(PlyType) {
+  std::optional<double> next(NumberType) {
     if (at_end()) return std::nullopt;
     std::size_t size = 0;
     do {
@@ -74,12 +74,12 @@ class PlyBytes {
  public:
   PlyBytes(InputFile& file, std::endian order) : file_(file), swapped_(order != std::endian::native) {}
 
-  static std::uint64_t least_size(PlyType type) { return size_of(type); }
+  static std::uint64_t least_size(NumberType type) { return size_of(type); }
   [[nodiscard]] std::optional<std::uint64_t> rest() const { return file_.rest(); }
 
-  std::optional<double> next(PlyType type) {
+  std::optional<double> next(NumberType type) {
     if (!file_.fetch(size_of(type))) return std::nullopt;
-    const double number = ply_number(file_.buffered().data(), type, swapped_);
+    const double number = number_at(file_.buffered().data(), type, swapped_);
     file_.skip(size_of(type));
     return number;
   }

@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "detp/sim/base/kept_memory.hpp"
+#include "detp/sim/base/parallel.hpp"
 #include "file_error.hpp"
 #include "ray_row.hpp"
+#include "table_file.hpp"
 #include "table_writer.hpp"
 
 namespace detp::sim {
@@ -44,18 +46,58 @@ void number_photons(RayFile& file) {
   }
 }
 
+/// Several threads read rows that have places of their own.
+void read_rows(const TableFile& table, Paths& paths, const std::stop_token& stop) {
+  const std::uint64_t count = table.rows();
+  KeptMemory memory(table.path());
+  const auto make_room = [&](auto& column) {
+    memory.reserve(column, count);
+    column.resize(count);
+  };
+  make_room(paths.rays);
+  if (table.given(ray_column::photon)) make_room(paths.photons);
+  if (table.given(ray_column::landing)) make_room(paths.landings);
+  constexpr std::uint64_t at_once = std::uint64_t{1} << 14;
+  const auto read = [&](std::uint64_t first, std::uint64_t last) {
+    std::uint64_t i = first;
+    table.read(
+        first, last,
+        [&](const TableRow& row) {
+          const Ray ray = paths.rays[i] = ray_in(row);
+          if (!paths.photons.empty()) paths.photons[i] = photon_in(row);
+          if (!paths.landings.empty()) paths.landings[i] = landing_in(row, ray);
+          ++i;
+        },
+        stop);
+  };
+  try {
+    sim::parallel_for(std::uint64_t{0}, (count + at_once - 1) / at_once,
+                      [&](std::uint64_t part) { read(part * at_once, std::min(count, (part + 1) * at_once)); });
+  } catch (const FileError&) {
+    read(0, count);  // names the first bad row
+    throw;
+  }
+}
+
 }  // namespace
 
 RayFile read_rays(const std::string& path, std::stop_token stop) {
   RayFile file;
+  if (const auto table = TableFile::open(path, ray_columns())) {
+    if (table->rows() == 0) throw FileError(path, "has no ray; at least one is needed");
+    read_rows(*table, file.paths, stop);
+    number_photons(file);
+    return file;
+  }
   KeptMemory memory(path);
   read_table(
       path, ray_columns(),
       [&](const TableRow& row) {
         const Ray ray = ray_in(row);
-        memory.push(file.paths.rays, ray);
-        if (row.given(ray_column::photon)) memory.push(file.paths.photons, photon_in(row));
-        if (row.given(ray_column::landing)) memory.push(file.paths.landings, landing_in(row, ray));
+        const std::size_t rows = row.expected_rows();
+        memory.push(file.paths.rays, ray, rows);
+        if (row.given(ray_column::photon)) memory.push(file.paths.photons, photon_in(row), rows);
+        if (row.given(ray_column::landing)) memory.push(file.paths.landings, landing_in(row, ray), rows);
       },
       std::move(stop));
   if (file.paths.rays.empty()) throw FileError(path, "has no ray; at least one is needed");

@@ -115,7 +115,7 @@ std::uint64_t StoredRays::first_ray_of(std::uint64_t photon) const {
   return found;
 }
 
-std::uint64_t StoredRays::block_end(std::uint64_t first, std::uint64_t most) const {
+std::uint64_t StoredRays::block_end(std::uint64_t first, std::uint64_t most, const std::stop_token&) const {
   if (!numbered() || most >= size() - first) return std::min(size(), first + most);
   const std::uint64_t cut = photon_of(first + most);
   const std::uint64_t begin = first_ray_of(cut);

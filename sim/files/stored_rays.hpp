@@ -23,7 +23,8 @@ class StoredRays final : public RaySource {
   void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const override;
   [[nodiscard]] bool numbered() const override;
   [[nodiscard]] std::uint64_t photons() const override { return photons_; }
-  [[nodiscard]] std::uint64_t block_end(std::uint64_t first, std::uint64_t most) const override;
+  [[nodiscard]] std::uint64_t block_end(std::uint64_t first, std::uint64_t most,
+                                        const std::stop_token& stop = {}) const override;
   [[nodiscard]] std::uint64_t first_ray_of(std::uint64_t photon) const override;
   void read_numbered(std::uint64_t first, std::span<Ray> block, std::vector<std::uint64_t>& photons,
                      const std::stop_token& stop = {}) const override;

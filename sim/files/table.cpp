@@ -9,6 +9,7 @@
 #include "file_error.hpp"
 #include "input_file.hpp"
 #include "ply.hpp"
+#include "table_file.hpp"
 
 namespace detp::sim {
 namespace {
@@ -43,7 +44,7 @@ std::size_t read_ply_table(const std::string& path, const std::vector<TableColum
 }  // namespace
 
 void TableRow::fail(const std::string& what) const {
-  if (rows_ > 0) throw FileError(path_, fmt::format("vertex {} of {}: {}", number_, rows_, what));
+  if (rows_ > 0) throw FileError(path_, fmt::format("{} {} of {}: {}", what_, number_, rows_, what));
   throw FileError(path_, number_, what);
 }
 
@@ -59,6 +60,10 @@ glm::dvec3 TableRow::finite_vector(std::size_t first_column) const {
 
 std::size_t read_table(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
                        std::stop_token stop) {
+  if (const auto table = TableFile::open(path, columns)) {
+    table->read(0, table->rows(), sink, stop);
+    return table->rows();
+  }
   return has_ending(path, ".ply") ? read_ply_table(path, columns, sink, std::move(stop))
                                   : read_csv(path, columns, sink, std::move(stop));
 }

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-/// Files of numbers in named columns: CSV, or the vertices of a PLY file.
+/// Files of numbers in named columns: CSV, the vertices of a PLY file, or an array of NumPy.
 namespace detp::sim {
 
 /// A column that a file may have or must have.
@@ -39,11 +39,16 @@ class TableRow {
   /// True if the file has the column.
   [[nodiscard]] bool given(std::size_t column) const { return given_[column]; }
 
-  /// Sets the row's place: its line in a CSV file, or its number, from 1, among the `rows` vertices of a PLY file.
-  void place(std::size_t number, std::size_t rows = 0) {
+  /// Sets the row's place: its line in a CSV file, or its number, from 1, among the `rows` rows of another, `what` being one of them.
+  void place(std::size_t number, std::size_t rows = 0, std::string_view what = "vertex") {
     number_ = number;
     rows_ = rows;
+    what_ = what;
   }
+
+  /// Rows that the file has, about; 0: not known, or not yet.
+  void expect(std::size_t rows) { expected_ = rows; }
+  [[nodiscard]] std::size_t expected_rows() const { return expected_; }
 
   /// Throws FileError with the row's place.
   [[noreturn]] void fail(const std::string& what) const;
@@ -61,13 +66,15 @@ class TableRow {
   std::vector<bool> given_;
   std::size_t number_ = 0;
   std::size_t rows_ = 0;  ///< 0: number_ is a line number
+  std::size_t expected_ = 0;
+  std::string_view what_;
 };
 
 /// Receives each row as it is read; may throw.
 using TableSink = std::function<void(const TableRow&)>;
 
-/// Reads a table row by row, in bounded memory: PLY if the path ends in .ply (upper or lower case), else CSV. Returns
-/// the number of rows. Throws FileError with the line (CSV) or the vertex (PLY) if the file is unreadable or malformed,
+/// Reads a table row by row, in bounded memory: PLY if the path ends in .ply, an array of NumPy if it ends in .npy (upper or lower case), else
+/// CSV. Returns the number of rows. Throws FileError with the line (CSV), the vertex (PLY) or the row if the file is unreadable or malformed,
 /// or a column is missing; see read_csv and PlyFile. Throws Stopped within 0.1 s of a stop request.
 std::size_t read_table(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
                        std::stop_token stop = {});

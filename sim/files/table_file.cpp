@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,9 +12,12 @@
 #include <filesystem>
 #include <utility>
 
+#include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/base/stopped.hpp"
 #include "file_error.hpp"
 #include "input_file.hpp"
-#include "ply_number.hpp"
+#include "npy_header.hpp"
+#include "number_bytes.hpp"
 
 namespace detp::sim {
 namespace {
@@ -24,6 +28,12 @@ std::size_t size_of_row(const PlyElement& element) {
   return size;
 }
 
+std::string names_of(const std::vector<TableColumn>& columns) {
+  std::vector<std::string_view> names;
+  for (const TableColumn& column : columns) names.push_back(column.name);
+  return fmt::format("{}", fmt::join(names, ","));
+}
+
 bool has_list(const PlyElement& element) {
   return std::ranges::any_of(element.properties, [](const PlyProperty& one) { return one.count_type.has_value(); });
 }
@@ -31,40 +41,78 @@ bool has_list(const PlyElement& element) {
 }  // namespace
 
 std::optional<TableFile> TableFile::open(const std::string& path, const std::vector<TableColumn>& columns) {
+  const bool is_npy = has_ending(path, ".npy");
+  if (!is_npy && !has_ending(path, ".ply")) return std::nullopt;
   std::error_code unknown;
-  if (!has_ending(path, ".ply") || !std::filesystem::is_regular_file(path, unknown))
-    return std::nullopt;  // a pipe is read once
+  if (!std::filesystem::is_regular_file(path, unknown)) {  // a pipe is read once
+    if (is_npy && std::filesystem::exists(path, unknown)) throw FileError(path, "is no regular file; .npy needs one");
+    if (!is_npy) return std::nullopt;
+  }
   InputFile file(path);
-  const PlyHeader header = read_ply_header(file);
-  if (header.format == PlyFormat::ascii || !file.rest()) return std::nullopt;
   TableFile table(path, columns);
-  table.swapped_ = (header.format == PlyFormat::little_endian) != (std::endian::native == std::endian::little);
+  if (is_npy)
+    table.take_npy(file);
+  else if (!table.take_ply(file))
+    return std::nullopt;
+  return table;
+}
+
+bool TableFile::take_ply(InputFile& file) {
+  const PlyHeader header = read_ply_header(file);
+  if (header.format == PlyFormat::ascii || !file.rest()) return false;
+  const bool swapped = (header.format == PlyFormat::little_endian) != (std::endian::native == std::endian::little);
   std::uint64_t before = 0;  // bytes of the elements before the vertices
   const auto vertex = std::ranges::find(header.elements, "vertex", &PlyElement::name);
-  if (vertex == header.elements.end()) throw FileError(path, "has no element vertex");
+  if (vertex == header.elements.end()) throw FileError(path_, "has no element vertex");
   for (auto element = header.elements.begin(); element <= vertex; ++element) {
-    if (has_list(*element)) return std::nullopt;
+    if (has_list(*element)) return false;
     if (element != vertex) before += element->rows * size_of_row(*element);
   }
-  table.rows_ = vertex->rows;
-  table.row_size_ = size_of_row(*vertex);
-  for (const TableColumn& column : columns) {
-    auto& place = table.places_.emplace_back();
+  rows_ = vertex->rows;
+  row_size_ = size_of_row(*vertex);
+  for (const TableColumn& column : columns_) {
+    auto& place = places_.emplace_back();
     if (const auto property = vertex->property(column.name, false)) {
-      place.emplace();
-      place->type = vertex->properties[*property].type;
+      place.emplace(Place{0, vertex->properties[*property].type, swapped});
       for (std::size_t i = 0; i < *property; ++i) place->offset += size_of(vertex->properties[i].type);
     } else if (!column.absent) {
-      throw FileError(path, fmt::format("its element vertex has no property {}{}", column.name, column.remedy));
+      throw FileError(path_, fmt::format("its element vertex has no property {}{}", column.name, column.remedy));
     }
   }
-  table.descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (table.descriptor_ < 0) throw FileError(path, std::string("cannot be opened: ") + std::strerror(errno));
-  const auto size = static_cast<std::uint64_t>(::lseek(table.descriptor_, 0, SEEK_END));
-  table.begin_ = size - *file.rest() + before;
-  if (table.begin_ > size || table.rows_ > (size - table.begin_) / table.row_size_)
-    throw FileError(path, fmt::format("ends early: the header says {} rows of element vertex", table.rows_));
-  return table;
+  open_rows(*file.rest(), before, "rows of element vertex");
+  return true;
+}
+
+void TableFile::take_npy(InputFile& file) {
+  const NpyHeader header = read_npy_header(file);
+  rows_ = header.rows;
+  row_size_ = header.row_size;
+  row_name_ = "row";
+  const bool plain = std::ranges::all_of(header.fields, [](const NpyField& one) { return one.name.empty(); });
+  if (plain && header.fields.size() > columns_.size())
+    throw FileError(path_, fmt::format("has {} columns; known are {}", header.fields.size(), names_of(columns_)));
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const TableColumn& column = columns_[i];
+    const auto found = plain ? header.fields.begin() + static_cast<std::ptrdiff_t>(std::min(i, header.fields.size()))
+                             : std::ranges::find(header.fields, column.name, &NpyField::name);
+    auto& place = places_.emplace_back();
+    if (found != header.fields.end())
+      place.emplace(Place{found->offset, found->type, found->swapped});
+    else if (!column.absent)
+      throw FileError(path_,
+                      fmt::format("has no column {}{}; known are {}", column.name, column.remedy, names_of(columns_)));
+  }
+  open_rows(file.rest().value_or(0), 0, "rows");
+}
+
+/// `rest`: bytes behind the header, of which `before` come before the first row.
+void TableFile::open_rows(std::uint64_t rest, std::uint64_t before, std::string_view rows) {
+  descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor_ < 0) throw FileError(path_, std::string("cannot be opened: ") + std::strerror(errno));
+  const auto size = static_cast<std::uint64_t>(::lseek(descriptor_, 0, SEEK_END));
+  begin_ = size - rest + before;
+  if (begin_ > size || (row_size_ > 0 && rows_ > (size - begin_) / row_size_))
+    throw FileError(path_, fmt::format("ends early: the header says {} {}", rows_, rows));
 }
 
 TableFile::~TableFile() {
@@ -78,16 +126,18 @@ TableFile::TableFile(TableFile&& other) noexcept
       rows_(other.rows_),
       begin_(other.begin_),
       row_size_(other.row_size_),
-      swapped_(other.swapped_),
+      row_name_(other.row_name_),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
-void TableFile::read(std::uint64_t first, std::uint64_t last, const TableSink& sink) const {
+void TableFile::read(std::uint64_t first, std::uint64_t last, const TableSink& sink,
+                     const std::stop_token& stop) const {
   constexpr std::uint64_t rows_at_once = 4096;
   TableRow row(path_, columns_);
   for (std::size_t i = 0; i < columns_.size(); ++i)
     if (!places_[i]) row.set_absent(i);
   std::vector<char> bytes;
   while (first < last) {
+    if (stop.stop_requested()) throw Stopped("stopped while reading " + shown_path(path_));
     const std::uint64_t count = std::min(rows_at_once, last - first);
     bytes.resize(count * row_size_);
     for (std::size_t done = 0; done < bytes.size();) {
@@ -100,8 +150,8 @@ void TableFile::read(std::uint64_t first, std::uint64_t last, const TableSink& s
     for (std::uint64_t i = 0; i < count; ++i) {
       for (std::size_t column = 0; column < places_.size(); ++column)
         if (const auto& place = places_[column])
-          row.set(column, ply_number(bytes.data() + i * row_size_ + place->offset, place->type, swapped_));
-      row.place(first + i + 1, rows_);
+          row.set(column, number_at(bytes.data() + i * row_size_ + place->offset, place->type, place->swapped));
+      row.place(first + i + 1, rows_, row_name_);
       sink(row);
     }
     first += count;

@@ -10,11 +10,12 @@
 
 namespace detp::sim {
 
-/// A table whose rows can be read in any order: a binary PLY file whose vertices have no lists. Reads by position, because a part of a mapped
+/// A table whose rows can be read in any order: a binary PLY file whose vertices have no lists, or an array of NumPy. Reads by position, because a part of a mapped
 /// file that cannot be read ends the program. May be used by several threads.
 class TableFile {
  public:
-  /// Null for any other file. Throws FileError as read_table does, and if the file is shorter than its header says.
+  /// Null for any other file. Throws FileError as read_table does, if the file is shorter than its header says, and for an array that is no
+  /// regular file.
   [[nodiscard]] static std::optional<TableFile> open(const std::string& path, const std::vector<TableColumn>& columns);
 
   ~TableFile();
@@ -26,18 +27,23 @@ class TableFile {
   /// The file has the column.
   [[nodiscard]] bool given(std::size_t column) const { return places_[column].has_value(); }
 
-  /// Passes on the rows first … last - 1. Throws FileError with the system's reason if they cannot be read.
-  void read(std::uint64_t first, std::uint64_t last, const TableSink& sink) const;
+  /// Passes on the rows first … last - 1. Throws FileError with the system's reason if they cannot be read, and Stopped.
+  void read(std::uint64_t first, std::uint64_t last, const TableSink& sink, const std::stop_token& stop = {}) const;
 
  private:
   /// Of a column in a row.
   struct Place {
     std::size_t offset = 0;
-    PlyType type = PlyType::float32;
+    NumberType type = NumberType::float32;
+    bool swapped = false;
   };
 
   TableFile(std::string path, std::vector<TableColumn> columns)
       : path_(std::move(path)), columns_(std::move(columns)) {}
+  /// Takes the places of the columns. False if the vertices have lists, or are text.
+  bool take_ply(InputFile& file);
+  void take_npy(InputFile& file);
+  void open_rows(std::uint64_t rest, std::uint64_t before, std::string_view rows);
 
   std::string path_;
   std::vector<TableColumn> columns_;
@@ -45,7 +51,7 @@ class TableFile {
   std::uint64_t rows_ = 0;
   std::uint64_t begin_ = 0;  ///< of the first row, bytes
   std::size_t row_size_ = 0;
-  bool swapped_ = false;
+  std::string_view row_name_ = "vertex";
   int descriptor_ = -1;
 };
 

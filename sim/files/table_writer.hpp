@@ -13,7 +13,7 @@
 namespace detp::sim {
 
 /// Writes a file of numbers in named columns, so that read_table finds the same doubles: PLY, binary, if the path ends in .ply
-/// (upper or lower case), CSV if it ends in .csv or has no suffix.
+/// (upper or lower case), a structured array of NumPy if in .npy, CSV if it ends in .csv or has no suffix.
 class TableWriter {
  public:
   /// `unit` names the rows in the plural, a string of static storage. Throws FileError for another suffix, and if the file
@@ -28,7 +28,7 @@ class TableWriter {
   void commit() { file_.commit(); }
 
  private:
-  bool ply_;
+  std::string suffix_;
   WritingCheck check_;
   OutputFile file_;
 };

@@ -37,9 +37,10 @@ bool TextLines::next() {
 void TextLines::find_end() {
   do {
     const std::string_view text = file_.buffered();
-    const auto is_end = [](char c) { return c == '\n' || c == '\r' || c == '\0'; };
-    size_ = static_cast<std::size_t>(
-        std::find_if(text.begin() + static_cast<std::ptrdiff_t>(size_), text.end(), is_end) - text.begin());
+    const std::size_t searched = size_;
+    size_ = std::min(text.find('\n', searched), text.size());
+    const std::string_view line = text.substr(searched, size_ - searched);
+    size_ = searched + std::min({line.find('\r'), line.find('\0'), line.size()});
     if (size_ > longest) fail("the line is longer than " + std::to_string(longest) + " bytes");
   } while (size_ == file_.buffered().size() && file_.fetch(size_ + 1));
   if (size_ == file_.buffered().size()) return;

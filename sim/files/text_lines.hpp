@@ -32,6 +32,12 @@ class TextLines {
   /// Moves the file's position behind the line, so that a caller can read binary data after the line.
   void finish_line();
 
+  /// Moves the file's position behind so many whole lines, which have so many bytes. To be called after finish_line.
+  void skip(std::size_t lines, std::size_t bytes) {
+    number_ += lines;
+    file_.skip(bytes);
+  }
+
   /// Throws FileError with the path and the line.
   [[noreturn]] void fail(const std::string& what) const;
 

@@ -25,6 +25,7 @@ struct PathRays {
   std::span<const std::uint32_t> triangles = {};
   /// Photons emitted, with those that gave no ray. 0: up to the last ray's photon.
   std::uint64_t photon_count = 0;
+  double scale = 1;  ///< of the rays' powers in the irradiance
 
   PathRays() = default;
   /// Rays without photon numbers and landings.
@@ -43,8 +44,13 @@ struct Paths {
   std::vector<double> landings = {};
   std::vector<std::uint32_t> triangles = {};
   std::uint64_t photon_count = 0;
+  double scale = 1;
 
-  operator PathRays() const { return {rays, photons, landings, photon_count, triangles}; }
+  operator PathRays() const {
+    PathRays all(rays, photons, landings, photon_count, triangles);
+    all.scale = scale;
+    return all;
+  }
 };
 
 }  // namespace detp::sim

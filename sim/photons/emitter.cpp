@@ -91,6 +91,26 @@ Emitter emitter(const EnvironmentLight&, const Scene& scene) {
   };
 }
 
+Box starts(const PointLight& light, const Scene&) { return {light.position, light.position}; }
+Box starts(const SpotLight& light, const Scene&) { return {light.position, light.position}; }
+Box starts(const AreaLight& light, const Scene&) {
+  Box box{light.corner, light.corner};
+  for (const glm::dvec3& edge : {light.edge_u, light.edge_v, light.edge_u + light.edge_v})
+    box.include(light.corner + edge);
+  return box;
+}
+Box starts(const SurfaceLight&, const Scene& scene) { return scene.box; }
+Box starts(const EnvironmentLight&, const Scene& scene) {
+  const Sphere sphere = around(scene.box);
+  return {sphere.centre - sphere.radius, sphere.centre + sphere.radius};
+}
+/// A disc that touches the sphere around the scene.
+Box starts(const DirectionalLight&, const Scene& scene) {
+  const Sphere sphere = around(scene.box);
+  const double reach = std::numbers::sqrt2 * sphere.radius;
+  return {sphere.centre - reach, sphere.centre + reach};
+}
+
 /// A side of a triangle that emits: the cross product of the edges points away from it.
 struct EmittingTriangle {
   std::uint32_t number;
@@ -142,6 +162,10 @@ Emitter emitter(const SurfaceLight&, const Scene& scene) {
 
 Emitter emitter_of(const Light& light, const Scene& scene) {
   return std::visit([&](const auto& shape) { return emitter(shape, scene); }, light.shape);
+}
+
+Box starts_of(const Light& light, const Scene& scene) {
+  return std::visit([&](const auto& shape) { return starts(shape, scene); }, light.shape);
 }
 
 double emitted_flux(const Mesh& mesh) {

@@ -23,6 +23,9 @@ using Emitter = std::function<PhotonStart(const std::array<double, 4>& random)>;
 /// finite, has no area or no direction, and for a surface light of a scene in which no triangle with an area emits.
 [[nodiscard]] Emitter emitter_of(const Light& light, const Scene& scene);
 
+/// A box with all points from which photons of the light start.
+[[nodiscard]] Box starts_of(const Light& light, const Scene& scene);
+
 /// Flux of the scene's emitting triangles: π times the sum of area times emitted radiance, of fronts and backs.
 [[nodiscard]] double emitted_flux(const Mesh& mesh);
 

@@ -83,9 +83,12 @@ TracedPaths photon_paths(const Scene& scene, std::size_t count, std::uint64_t se
       paths.light.add(ends[photon], tracer.power(photon));
     paths.light.landings = static_cast<std::uint64_t>(
         std::ranges::count_if(paths.landings, [](double distance) { return distance < unbounded; }));
-    const std::vector<double> shares =
-        powers == PhotonPowers::unbiased ? shares_of(paths, count) : std::vector<double>();
-    const double equal = static_cast<double>(paths.photon_count);
+    const std::vector<double> shares = powers == PhotonPowers::equal ? std::vector<double>() : shares_of(paths, count);
+    const auto equal = static_cast<double>(paths.photon_count);
+    if (powers == PhotonPowers::scaled && shares.empty()) {
+      paths.scale = 1 / equal;
+      return paths;
+    }
     for_each_checked(0, paths.rays.size(), check, [&](std::size_t i) {
       if (shares.empty())
         paths.rays[i].power /= equal;

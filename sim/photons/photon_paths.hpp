@@ -20,7 +20,8 @@ struct TracedPaths : Paths {
 
 enum class PhotonPowers {
   unbiased,  ///< the irradiance of these rays has no bias
-  equal      ///< that of many batches, weighted by their photons, has none; for photons of one light
+  equal,     ///< that of many batches, weighted by their photons, has none; for photons of one light
+  scaled  ///< as unbiased; but of many_photons or more, rays have their photons' powers, and the paths' scale divides them
 };
 
 /// Photon paths. A photon leaves a light (lights.hpp) and flies to the first surface. There its material absorbs or

@@ -21,12 +21,14 @@ class PhotonRounds {
 
   /// Number of photons in the next round: about as many as yield the missing pieces. `found` is the number of pieces in
   /// all rounds so far. Throws std::invalid_argument if the limit is reached.
-  [[nodiscard]] std::uint64_t next(std::uint64_t found) {
+  [[nodiscard]] std::uint64_t next(std::uint64_t found) { return next(found, pieces_); }
+  /// The same, to `wanted` pieces for now.
+  [[nodiscard]] std::uint64_t next(std::uint64_t found, std::uint64_t wanted) {
     if (traced_ >= limit_)
       throw std::invalid_argument("the light of " + scene_ + " hardly meets its surfaces: " + std::to_string(traced_) +
                                   " photons gave " + std::to_string(found) + " pieces of path (" +
                                   std::to_string(pieces_) + " asked for)");
-    const std::uint64_t photons = std::min(photons_needed(found), limit_ - traced_);
+    const std::uint64_t photons = std::min(photons_needed(found, wanted), limit_ - traced_);
     traced_ += photons;
     return photons;
   }
@@ -38,8 +40,8 @@ class PhotonRounds {
   static constexpr std::uint64_t least_in_a_round = 256;  ///< also of the first, for paths may be long
   static constexpr std::uint64_t most_in_second_round = 1ULL << 14;
 
-  [[nodiscard]] std::uint64_t photons_needed(std::uint64_t found) const {
-    const std::uint64_t missing = pieces_ - found;
+  [[nodiscard]] std::uint64_t photons_needed(std::uint64_t found, std::uint64_t wanted) const {
+    const std::uint64_t missing = wanted - found;
     if (traced_ == 0) return least_in_a_round;
     const double each = static_cast<double>(found) / static_cast<double>(traced_);
     const double margin = 1 + 2 / std::sqrt(static_cast<double>(traced_));  // so that a further round is rarely needed

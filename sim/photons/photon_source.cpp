@@ -11,7 +11,6 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/sim/ranks/parts.hpp"
-#include "photon_rounds.hpp"
 #include "photon_shares.hpp"
 
 namespace detp::sim {
@@ -19,6 +18,8 @@ namespace {
 
 constexpr std::uint64_t group_size = 1024;  // photons in a group
 constexpr std::uint64_t most_in_a_round = 1ULL << 26;
+constexpr std::uint64_t first_known = 1ULL << 16;  // rays, before the first is read
+constexpr std::size_t bytes_of_ray = sizeof(Ray) + sizeof(std::uint64_t);
 
 /// Of the first photons of some that begin with number `first`.
 LightLedger ledger_of(const PhotonTracer& tracer, std::uint64_t first, const PhotonPieces& pieces,
@@ -30,137 +31,195 @@ LightLedger ledger_of(const PhotonTracer& tracer, std::uint64_t first, const Pho
   return light;
 }
 
+/// With a little room for rounding.
+Box origins_of(const Scene& scene) {
+  Box box = scene.box;
+  for (const glm::dvec3& position : scene.mesh.positions) box.include(position);
+  for (const Light& light : scene.lights) {
+    const Box starts = starts_of(light, scene);
+    box.include(starts.low);
+    box.include(starts.high);
+  }
+  constexpr double room = 1e-6;
+  const double more = room * box.longest_side();
+  return {box.low - more, box.high + more};
+}
+
 }  // namespace
 
 PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed,
-                           std::shared_ptr<const RayCaster> caster, const std::stop_token& stop, Ranks* ranks)
+                           std::shared_ptr<const RayCaster> caster, const std::stop_token& stop, Ranks* ranks,
+                           Counting counting)
     : tracer_(scene, seed, std::move(caster)),
+      counting_(counting),
       wanted_(count),
-      count_(count),
-      limit_(0),
-      starts_{0},
-      most_kept_(most_kept_bytes()) {
+      most_kept_(counting == Counting::ahead ? most_kept_bytes() : 2.0 * bytes_of_ray * first_known),
+      origins_(origins_of(scene)),
+      known_(new Known{.rounds = PhotonRounds(scene.name, count, most_in_a_round), .count = count}) {
   const DefaultFloatingPoint mode;
   require_memory(fmt::format("numbers of {} rays", count), 16.0 * static_cast<double>(count) / group_size);
+  known_->all = count == 0;
   OneRank one;
-  PhotonRounds rounds(scene.name, count, most_in_a_round);
-  limit_ = rounds.limit();
   try {
-    for (std::uint64_t photons = 0; starts_.back() < count;) {
-      photons += rounds.next(starts_.back());
-      count_rays((photons + group_size - 1) / group_size, ranks != nullptr ? *ranks : one, stop);
-    }
-    if (count > 0) end_with_last_photon(stop);
-    if (count > 0) add_up_light(stop);
+    know(counting == Counting::ahead ? count : std::min(count, first_known), ranks != nullptr ? *ranks : one, stop);
+    while (!known_->all && known_->emitted < many_photons) know(known_->starts.back() + 1, one, stop);
   } catch (const Stopped&) {
-    stopped_tracing(std::min(starts_.back(), count), count);
+    stopped_tracing(std::min(known_->starts.back(), count), count);
   }
 }
 
 PhotonPieces PhotonSource::trace_group(std::uint64_t group, const std::stop_token& stop) const {
   const std::uint64_t first = group * group_size;
-  return tracer_.trace(first, std::min(first + group_size, limit_), stop, wanted_);
+  return tracer_.trace(first, std::min(first + group_size, known_->rounds.limit()), stop, wanted_);
 }
 
 const PhotonPieces& PhotonSource::pieces_of(std::uint64_t group, PhotonPieces& traced,
                                             const std::stop_token& stop) const {
   StopCheck(stop, "making rays").now();
-  if (group < kept_.size() && kept_[group]) return *kept_[group];
+  if (group < known_->kept.size() && known_->kept[group]) return *known_->kept[group];
   return traced = trace_group(group, stop);
 }
 
-std::unique_ptr<const PhotonPieces> PhotonSource::keep(const PhotonPieces& pieces) {
-  const std::size_t bytes = pieces.rays.size() * (sizeof(Ray) + sizeof(std::uint64_t));
-  if (static_cast<double>(traced_bytes_.fetch_add(bytes) + bytes) > most_kept_) return nullptr;
+std::unique_ptr<const PhotonPieces> PhotonSource::keep(PhotonPieces&& pieces) const {
+  const std::size_t bytes = pieces.rays.size() * bytes_of_ray;
+  const std::uint64_t all = known_->kept_bytes.fetch_add(bytes) + bytes;
+  if (counting_ == Counting::as_read) {
+    pieces.landings = {};
+    pieces.triangles = {};
+    return std::make_unique<PhotonPieces>(std::move(pieces));
+  }
+  if (static_cast<double>(all) > most_kept_) return nullptr;
   auto kept = std::make_unique<PhotonPieces>();
   kept->rays.assign(pieces.rays.begin(), pieces.rays.end());
   kept->photons.assign(pieces.photons.begin(), pieces.photons.end());
   return kept;
 }
 
-/// Traces further groups to count their rays, until `groups` groups are counted.
-void PhotonSource::count_rays(std::uint64_t groups, Ranks& ranks, const std::stop_token& stop) {
+double PhotonSource::kept_bytes(std::size_t block) const {
+  if (counting_ == Counting::ahead) return std::min(static_cast<double>(known_->kept_bytes), most_kept_);
+  constexpr double growth = 1.5;  // of arrays whose size is not known before
+  return growth *
+         std::min(static_cast<double>(wanted_ * bytes_of_ray), most_kept_ + static_cast<double>(block * bytes_of_ray));
+}
+
+void PhotonSource::know(std::uint64_t rays, Ranks& ranks, const std::stop_token& stop) const {
+  Known& known = *known_;
+  while (!known.all && known.starts.back() < rays) {
+    known.photons += known.rounds.next(known.starts.back(), std::min(rays, wanted_));
+    count_rays((known.photons + group_size - 1) / group_size, ranks, stop);
+    known.emitted = (known.starts.size() - 1) * group_size;
+    if (known.starts.back() >= wanted_) end_with_last_photon(stop);
+  }
+}
+
+void PhotonSource::know_all(const std::stop_token& stop) const {
+  OneRank one;
+  know(wanted_, one, stop);
+}
+
+void PhotonSource::count_rays(std::uint64_t groups, Ranks& ranks, const std::stop_token& stop) const {
   struct Group {
     std::uint64_t rays = 0;
-    Box origins;
     LightLedger light;
   };
-  const std::uint64_t known = starts_.size() - 1;
+  Known& all = *known_;
+  const std::uint64_t known = all.starts.size() - 1;
   if (groups <= known) return;
   // If few are known, each rank traces, and keeps, the groups that it is likely to search: its part of all.
   constexpr std::uint64_t few = 16;
-  const std::uint64_t skipped = few * known * static_cast<std::uint64_t>(ranks.count()) <= groups ? known : 0;
+  const bool again = ranks.count() > 1 && few * known * static_cast<std::uint64_t>(ranks.count()) <= groups;
+  const std::uint64_t skipped = again ? known : 0;
   const std::uint64_t start = known - skipped;
   std::vector<Group> found(groups - start);
-  kept_.resize(groups);
+  all.kept.resize(groups);
   const auto [first, last] = part_of(found.size(), ranks);
   do_on_all(ranks, [&, begin = std::max(first, skipped), end = last] {
     sim::parallel_for(begin, end, [&](std::size_t i) {
-      const PhotonPieces pieces = trace_group(start + i, stop);
+      PhotonPieces pieces = trace_group(start + i, stop);
       found[i].rays = pieces.rays.size();
-      for (const Ray& ray : pieces.rays) found[i].origins.include(ray.origin);
       found[i].light = ledger_of(tracer_, (start + i) * group_size, pieces, pieces.ends.size());
-      kept_[start + i] = keep(pieces);
+      all.kept[start + i] = keep(std::move(pieces));
     });
   });
   share_parts(ranks, std::span(found));
   for (const Group& group : std::span(found).subspan(skipped)) {
-    starts_.push_back(starts_.back() + group.rays);
-    ledgers_.push_back(group.light);
-    if (group.rays == 0) continue;
-    origins_.include(group.origins.low);
-    origins_.include(group.origins.high);
+    all.starts.push_back(all.starts.back() + group.rays);
+    all.ledgers.push_back(group.light);
   }
 }
 
 std::uint64_t PhotonSource::group_of(std::uint64_t ray) const {
-  return static_cast<std::uint64_t>(std::ranges::upper_bound(starts_, ray) - starts_.begin()) - 1;
+  return static_cast<std::uint64_t>(std::ranges::upper_bound(known_->starts, ray) - known_->starts.begin()) - 1;
 }
 
-void PhotonSource::end_with_last_photon(const std::stop_token& stop) {
-  const std::uint64_t group = group_of(count_ - 1);
+void PhotonSource::end_with_last_photon(const std::stop_token& stop) const {
+  Known& known = *known_;
+  const std::uint64_t group = group_of(wanted_ - 1);
   PhotonPieces traced;
   const std::vector<std::uint64_t>& photons = pieces_of(group, traced, stop).photons;
-  const std::uint64_t last = photons[count_ - 1 - starts_[group]];
-  count_ = starts_[group] + static_cast<std::uint64_t>(std::ranges::upper_bound(photons, last) - photons.begin());
-  emitted_ = last + 1;
-}
-
-void PhotonSource::add_up_light(const std::stop_token& stop) {
-  const std::uint64_t last = (emitted_ - 1) / group_size;
-  for (std::uint64_t group = 0; group < last; ++group) light_ += ledgers_[group];
-  light_ += ledger_of(tracer_, last * group_size, trace_group(last, stop), emitted_ - last * group_size);
-  if (emitted_ >= many_photons) return;
-  std::vector<std::uint64_t> pieces(emitted_);
-  for (std::uint64_t group = 0; group <= last; ++group) {
-    PhotonPieces traced;
-    for (const std::uint64_t photon : pieces_of(group, traced, stop).photons)
-      if (photon < emitted_) ++pieces[photon];
+  const std::uint64_t last = photons[wanted_ - 1 - known.starts[group]];
+  known.count =
+      known.starts[group] + static_cast<std::uint64_t>(std::ranges::upper_bound(photons, last) - photons.begin());
+  known.emitted = last + 1;
+  known.all = true;
+  if (known.emitted >= many_photons) return;
+  std::vector<std::uint64_t> pieces(known.emitted);
+  for (std::uint64_t i = 0; i <= group; ++i) {
+    PhotonPieces of_group;
+    for (const std::uint64_t photon : pieces_of(i, of_group, stop).photons)
+      if (photon < known.emitted) ++pieces[photon];
   }
-  shares_ = photon_shares(pieces, wanted_);
+  known.shares = photon_shares(pieces, wanted_);
 }
 
-std::uint64_t PhotonSource::block_end(std::uint64_t first, std::uint64_t most) const {
-  if (most >= count_ - first) return count_;
+LightLedger PhotonSource::light_of(std::uint64_t photons) const {
+  LightLedger light;
+  const std::uint64_t last = photons / group_size;
+  for (std::uint64_t group = 0; group < last; ++group) light += known_->ledgers.at(group);
+  if (const std::uint64_t rest = photons % group_size; rest > 0)
+    light += ledger_of(tracer_, last * group_size, trace_group(last, {}), rest);
+  return light;
+}
+
+std::uint64_t PhotonSource::photons_of(std::uint64_t rays) const {
+  if (rays == 0) return 0;
+  if (rays >= known_->count) return known_->emitted;
+  const std::uint64_t group = group_of(rays - 1);
+  PhotonPieces traced;
+  return pieces_of(group, traced, {}).photons[rays - 1 - known_->starts[group]] + 1;
+}
+
+double PhotonSource::scale(std::uint64_t rays) const {
+  const auto photons = static_cast<double>(photons_of(rays));
+  return (known_->shares.empty() ? 1 : static_cast<double>(known_->emitted)) / photons;
+}
+
+std::uint64_t PhotonSource::block_end(std::uint64_t first, std::uint64_t most, const std::stop_token& stop) const {
+  const DefaultFloatingPoint mode;
+  OneRank one;
+  if (!known_->all) know(most >= wanted_ - first ? wanted_ : first + most + 1, one, stop);
+  if (known_->all && most >= known_->count - first) return known_->count;
   const std::uint64_t next = first + most;  // the first ray that may be in the next block
   const std::uint64_t group = group_of(next);
   PhotonPieces traced;
   const std::vector<std::uint64_t>& photons = pieces_of(group, traced, {}).photons;
-  const std::uint64_t cut = photons[next - starts_[group]];
+  const std::uint64_t cut = photons[next - known_->starts[group]];
   const auto begin = std::ranges::lower_bound(photons, cut) - photons.begin();
-  const std::uint64_t end = starts_[group] + static_cast<std::uint64_t>(begin);
+  const std::uint64_t end = known_->starts[group] + static_cast<std::uint64_t>(begin);
   if (end > first) return end;
-  return starts_[group] + static_cast<std::uint64_t>(std::ranges::upper_bound(photons, cut) - photons.begin());
+  return known_->starts[group] + static_cast<std::uint64_t>(std::ranges::upper_bound(photons, cut) - photons.begin());
 }
 
 std::uint64_t PhotonSource::first_ray_of(std::uint64_t photon) const {
+  know_all();
+  const std::vector<std::uint64_t>& starts = known_->starts;
   const std::uint64_t group = photon / group_size;
-  if (photon >= emitted_ || group + 1 >= starts_.size()) return count_;
-  if (photon % group_size == 0) return std::min(count_, starts_[group]);
+  if (photon >= known_->emitted || group + 1 >= starts.size()) return known_->count;
+  if (photon % group_size == 0) return std::min(known_->count, starts[group]);
   PhotonPieces traced;
   const std::vector<std::uint64_t>& photons = pieces_of(group, traced, {}).photons;
   const auto before = static_cast<std::uint64_t>(std::ranges::lower_bound(photons, photon) - photons.begin());
-  return std::min(count_, starts_[group] + before);
+  return std::min(known_->count, starts[group] + before);
 }
 
 void PhotonSource::read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const {
@@ -173,20 +232,24 @@ void PhotonSource::read_numbered(std::uint64_t first, std::span<Ray> block, std:
   const DefaultFloatingPoint mode;
   photons.resize(block.size());
   if (block.empty()) return;
+  const std::vector<std::uint64_t>& starts = known_->starts;
+  const std::vector<double>& shares = known_->shares;
   const std::uint64_t last = first + block.size();
   sim::parallel_for(group_of(first), group_of(last - 1) + 1, [&](std::uint64_t group) {
     PhotonPieces traced;
     const PhotonPieces& pieces = pieces_of(group, traced, stop);
-    const std::uint64_t from = std::max(first, starts_[group]);
-    const std::uint64_t to = std::min(last, starts_[group] + pieces.rays.size());
+    const std::uint64_t from = std::max(first, starts[group]);
+    const std::uint64_t to = std::min(last, starts[group] + pieces.rays.size());
     for (std::uint64_t number = from; number < to; ++number) {
-      photons[number - first] = pieces.photons[number - starts_[group]];
-      Ray& ray = block[number - first] = pieces.rays[number - starts_[group]];
-      if (shares_.empty())
-        ray.power /= static_cast<double>(emitted_);
-      else
-        ray.power *= shares_[pieces.photons[number - starts_[group]]];
+      photons[number - first] = pieces.photons[number - starts[group]];
+      Ray& ray = block[number - first] = pieces.rays[number - starts[group]];
+      if (!shares.empty()) ray.power *= shares[photons[number - first]];
     }
+    const bool is_read = to == starts[group] + pieces.rays.size();
+    if (counting_ == Counting::ahead || !is_read || static_cast<double>(known_->kept_bytes) <= most_kept_) return;
+    if (known_->kept[group] == nullptr) return;
+    known_->kept_bytes -= pieces.rays.size() * bytes_of_ray;
+    known_->kept[group] = nullptr;
   });
 }
 

@@ -19,6 +19,8 @@ class RaySource {
  public:
   virtual ~RaySource() = default;
 
+  /// Number of rays. A source that makes them as they are read knows it when block_end has come to the last; until then it is what was
+  /// asked for, which is not more.
   [[nodiscard]] virtual std::uint64_t size() const = 0;
 
   /// Fills the block with the rays first, first + 1, …. Callers must not read beyond the last ray. May use oneTBB's
@@ -29,9 +31,17 @@ class RaySource {
   [[nodiscard]] virtual bool numbered() const { return false; }
   /// Number of photons emitted: those of all rays, and those that gave none.
   [[nodiscard]] virtual std::uint64_t photons() const { return size(); }
+  /// Number of photons emitted until the first `rays` rays were there; photons() for all rays.
+  [[nodiscard]] virtual std::uint64_t photons_of(std::uint64_t rays) const {
+    return numbered() ? photons() : std::min(rays, size());
+  }
+  /// What the powers of the first `rays` rays are to be multiplied by: 1, or for pieces of photon paths that come with the powers of their
+  /// photons, 1 over the number of these.
+  [[nodiscard]] virtual double scale(std::uint64_t) const { return 1; }
   /// The largest end of a block that begins at ray `first`, has at most `most` rays, and does not split a photon; if the
-  /// first photon alone has more rays, the end of that photon.
-  [[nodiscard]] virtual std::uint64_t block_end(std::uint64_t first, std::uint64_t most) const {
+  /// first photon alone has more rays, the end of that photon. Throws as `read`.
+  [[nodiscard]] virtual std::uint64_t block_end(std::uint64_t first, std::uint64_t most,
+                                                const std::stop_token& = {}) const {
     return std::min(size(), first + most);
   }
   /// Number of the first ray of this photon or a later one; size() if there is none.
@@ -46,8 +56,8 @@ class RaySource {
   /// An upper bound on the distance of any ray's origin from the point.
   [[nodiscard]] virtual double farthest_from(const glm::dvec3& point) const = 0;
 
-  /// Bytes of rays that the source keeps so that it need not make them again.
-  [[nodiscard]] virtual double kept_bytes() const { return 0; }
+  /// Bytes of rays that the source keeps, so that it need not make them again, while blocks of so many rays are read.
+  [[nodiscard]] virtual double kept_bytes(std::size_t) const { return 0; }
 };
 
 /// An upper bound on the distance of any point in the box from this one.

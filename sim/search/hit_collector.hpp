@@ -81,7 +81,7 @@ class HitCollector {
     outcome_.total_hits = kept_;
     outcome_.counts.hits = kept_;
     end_totals();
-    if (outcome_.batches.count == 0 && rays > 0) outcome_.batches.add(rays, kept_);
+    if (outcome_.batches.count == 0 && rays > 0) outcome_.batches.add(rays, static_cast<double>(kept_));
     if (options_.totals == nullptr) finish(own_, problem_.discs(), outcome_);
     if (outcome_.stopped) outcome_.standard_error.clear();
     if (outcome_.stopped) outcome_.upper_bound.clear();

@@ -48,8 +48,8 @@ PowerError error_of_power(double power, const ErrorSums& sums, double heaviest, 
   return {in_range && sums.photons > 1 ? error : unbounded, power + heaviest * more_photons[k]};
 }
 
-DiscResult result_of(const FoundSums& found, const ErrorSums* errors, double heaviest, double photons) {
-  const double area = std::numbers::pi * found.radius * found.radius;
+DiscResult result_of(const FoundSums& found, const ErrorSums* errors, double heaviest, double photons, double scale) {
+  const double area = std::numbers::pi * found.radius * found.radius / scale;
   DiscResult result{.hits = found.hits, .irradiance = found.power / area};
   if (errors == nullptr) return result;
   const PowerError error = error_of_power(found.power, *errors, heaviest, photons);
@@ -64,8 +64,8 @@ void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, con
   ErrorSums errors;
   if (photons != nullptr)
     errors = {totals.squares(number, *photons), photons->largest, photons->photons, totals.unit_exponent()};
-  const DiscResult result =
-      result_of(found, photons != nullptr ? &errors : nullptr, heaviest, static_cast<double>(totals.photons()));
+  const DiscResult result = result_of(found, photons != nullptr ? &errors : nullptr, heaviest,
+                                      static_cast<double>(totals.photons()), totals.scale());
   outcome.hits[number] = result.hits;
   outcome.irradiance[number] = result.irradiance;
   if (photons == nullptr) return;

@@ -18,7 +18,7 @@ constexpr double error_bytes = sizeof(PhotonSums) + 2 * sizeof(double);
 ///
 ///     E = P / (π d²)        SE² = N/(N - 1) (Σ x² - P²/N) / (π d²)²
 ///
-///   where  P  power of the rays that hit the disc
+///   where  P  power of the rays that hit the disc, and all x, times the scale of the totals
 ///          x  power that one photon brings to the disc: of all rays of its path that hit the disc
 ///          N  number of photons emitted; the sum goes over all of them
 ///          d  radius of the disc
@@ -73,8 +73,10 @@ struct DiscResult {
   return !(result.upper_bound <= result.irradiance + 1.9 * result.standard_error) || result.standard_error == unbounded;
 }
 
-/// By the rules of `finish`. `errors` may be null: then there is no standard error. `heaviest` is w, `photons` N.
-[[nodiscard]] DiscResult result_of(const FoundSums& found, const ErrorSums* errors, double heaviest, double photons);
+/// By the rules of `finish`. `errors` may be null: then there is no standard error. `heaviest` is w, `photons` N, `scale` that
+/// of the totals.
+[[nodiscard]] DiscResult result_of(const FoundSums& found, const ErrorSums* errors, double heaviest, double photons,
+                                   double scale);
 
 /// A standard error and a one-sided bound of 95 %, by the rules of `finish`, in the unit of the power.
 struct PowerError {

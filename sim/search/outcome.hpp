@@ -8,10 +8,10 @@
 #include <stop_token>
 #include <vector>
 
+#include "batches.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/base/progress.hpp"
 #include "detp/sim/geometry/geometry.hpp"
-#include "hit_batches.hpp"
 #include "totals.hpp"
 
 /// The options of a search, and its results.
@@ -88,7 +88,7 @@ struct Outcome {
   /// all exact techniques give the same bits.
   std::vector<double> irradiance;
   /// Standard error of the irradiance, for independent photons (irradiance.hpp); infinite, for not known, if fewer than two photons hit the
-  /// disc; weak (is_weak) if a few bring most of it. Empty if not requested, or if the run was stopped.
+  /// disc; weak (is_weak) if a few bring most of it. Empty if not requested, or if the run was stopped and its rays are no stream.
   std::vector<double> standard_error;
   std::vector<double> upper_bound;  ///< one-sided bound of the irradiance, 95 %; empty like standard_error
   std::uint64_t total_hits = 0;
@@ -106,7 +106,9 @@ struct Outcome {
   /// other discs are 0 and have no meaning.
   Progress progress;
   std::vector<bool> done_discs;  ///< empty unless the progress is in discs
-  HitBatches batches;            ///< hits of the finished rays, batch by batch; empty if the progress is in discs
+  Batches batches;               ///< hits of the finished rays, batch by batch; empty if the progress is in discs
+  /// of streams: sum over all discs of what the first rays bring to their irradiance, batch by batch, without the scale of the source
+  Batches irradiance_batches;
 };
 
 /// Empties an outcome, and keeps the memory of its arrays.

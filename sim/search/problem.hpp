@@ -43,11 +43,15 @@ class Problem {
   [[nodiscard]] double landing(std::size_t ray) const {
     return paths_.landings.empty() ? rays_[ray].length : paths_.landings[ray];
   }
+  /// Of the rays' powers in the irradiance.
+  [[nodiscard]] double scale() const { return paths_.scale; }
   /// Number of the triangle that each ray's photon met (PathRays::triangles); empty: not known.
   [[nodiscard]] std::span<const std::uint32_t> triangles() const { return paths_.triangles; }
   /// The rays as they were given, with unit directions.
   [[nodiscard]] PathRays paths() const {
-    return {rays_, paths_.photons, paths_.landings, paths_.photon_count, paths_.triangles};
+    PathRays all(rays_, paths_.photons, paths_.landings, paths_.photon_count, paths_.triangles);
+    all.scale = paths_.scale;
+    return all;
   }
   [[nodiscard]] std::span<const Disc> discs() const { return discs_; }
   /// S₀: contains every disc completely; rays may start or pass outside it.

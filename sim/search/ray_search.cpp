@@ -60,14 +60,14 @@ class HitSum {
 
   void add(const Chunk& chunk) {
     for (const Pair& hit : *chunk.hits) collector_.add_hit(hit.ray, hit.disc);
-    batches_.add(chunk.last - chunk.first, chunk.hits->size());
+    batches_.add(chunk.last - chunk.first, static_cast<double>(chunk.hits->size()));
   }
 
-  [[nodiscard]] const HitBatches& batches() const { return batches_; }
+  [[nodiscard]] const Batches& batches() const { return batches_; }
 
  private:
   HitCollector& collector_;
-  HitBatches batches_;
+  Batches batches_;
 };
 
 Counts<std::uint64_t> search_alone(Chunks& chunks, MakeRaySearch make, HitSum& sum) {

@@ -213,6 +213,7 @@ void Totals::add_rays(const Problem& problem) {
   rays_ += problem.rays().size();
   photons_ = std::max(photons_, problem.numbered() ? problem.photons_to() : rays_);
   largest_power_ = std::max(largest_power_, problem.largest_power());
+  scale_ = problem.scale();
 }
 
 }  // namespace detp::sim

@@ -113,8 +113,12 @@ class Totals {
 
   /// To be called after each search: its rays, photons and largest power.
   void add_rays(const Problem& problem);
-  /// So many photons were emitted, some perhaps after the last that gave a ray.
-  void emitted(std::uint64_t photons) { photons_ = std::max(photons_, photons); }
+  /// So many photons were emitted, some perhaps after the last that gave a ray. Powers are to be multiplied by `scale` (RaySource).
+  void emitted(std::uint64_t photons, double scale = 1) {
+    photons_ = std::max(photons_, photons);
+    scale_ = scale;
+  }
+  [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
   [[nodiscard]] std::uint64_t photons() const { return photons_; }
   [[nodiscard]] double largest_power() const { return largest_power_; }
@@ -155,6 +159,7 @@ class Totals {
   std::uint64_t rays_ = 0;
   std::uint64_t photons_ = 0;
   double largest_power_ = 0;
+  double scale_ = 1;
   int unit_exponent_ = 0;
 };
 

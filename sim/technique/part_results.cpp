@@ -67,9 +67,10 @@ void PartResults::receive(Ranks& ranks, int from) {
   receive_runs(pairs_, ranks, from);
 }
 
-void PartResults::finish(double heaviest, std::uint64_t photons) {
+void PartResults::finish(double heaviest, std::uint64_t photons, double scale) {
   heaviest_ = heaviest;
   photons_ = static_cast<double>(photons);
+  scale_ = scale;
 }
 
 }  // namespace detp::sim

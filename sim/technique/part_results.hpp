@@ -30,8 +30,8 @@ class PartResults {
   void send(Ranks& ranks, int to) const;
   void receive(Ranks& ranks, int from);
 
-  /// When all parts are here: the largest power that one photon brought to a disc, and the number of photons.
-  void finish(double heaviest, std::uint64_t photons);
+  /// When all parts are here: the largest power that one photon brought to a disc, the number of photons, and the scale of powers.
+  void finish(double heaviest, std::uint64_t photons, double scale);
 
   [[nodiscard]] bool errors() const { return errors_; }
   [[nodiscard]] std::uint64_t discs() const { return sums_.size(); }
@@ -43,7 +43,8 @@ class PartResults {
     typename SortedRuns<Errors>::Reader errors(error_sums_);
     Sums one;
     Errors error;
-    while (sums.next(one)) visit(result_of(one.sums, errors.next(error) ? &error.sums : nullptr, heaviest_, photons_));
+    while (sums.next(one))
+      visit(result_of(one.sums, errors.next(error) ? &error.sums : nullptr, heaviest_, photons_, scale_));
   }
   /// Calls visit(Pair) for all pairs, sorted.
   template <class Visit>
@@ -72,6 +73,7 @@ class PartResults {
   double largest_power_ = 0;
   double heaviest_ = 0;
   double photons_ = 0;
+  double scale_ = 1;
 };
 
 }  // namespace detp::sim

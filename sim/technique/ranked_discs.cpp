@@ -191,7 +191,7 @@ std::optional<RankedOutcome> search_parts(const DiscSource& discs, const RaySour
     ranked.seconds.push_back(part.seconds);
     results.receive(ranks, from);
   }
-  results.finish(heaviest, source.photons());
+  results.finish(heaviest, source.photons(), source.scale(source.size()));
   if (discs.in_memory().empty())
     ranked.results = std::make_shared<const PartResults>(std::move(results));
   else

@@ -10,7 +10,7 @@ namespace detp::sim {
 struct PartOfOutcome {
   Counts<std::uint64_t> counts;
   Vectors vectors;
-  HitBatches batches;
+  Batches batches;
   Phases phases;
   std::uint64_t total_hits = 0;
   std::uint64_t done = 0;

@@ -235,12 +235,10 @@ RankedOutcome run_on_shared_rays(std::span<const Disc> discs, const RaySource& s
     order[i] == 0 ? collected.add(0, found[next_own++]) : collected.add(order[i], receive_range(ranks, order[i]));
   Totals& totals = collected.finish();
   outcome.progress.of = source.size();
-  totals.emitted(source.photons());
+  totals.emitted(source.photons_of(outcome.progress.done), source.scale(outcome.progress.done));
   finish(totals, discs, outcome);
   if (!outcome.stopped) return ranked;
   outcome.pairs.clear();
-  outcome.standard_error.clear();
-  outcome.upper_bound.clear();
   return ranked;
 }
 

@@ -62,7 +62,8 @@ Problem StreamedSearch::problem_of(std::span<const Disc> discs) {
 void StreamedSearch::predict_bytes() {
   const double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) +
                             (options_.run.standard_error ? error_bytes : 0);
-  own_bytes_ = options_.kept_bytes + source_.kept_bytes() + static_cast<double>(problem_.discs().size()) * for_a_disc +
+  own_bytes_ = options_.kept_bytes + source_.kept_bytes(streamed_.block) +
+               static_cast<double>(problem_.discs().size()) * for_a_disc +
                static_cast<double>(streamed_.block) * (sizeof(Ray) + (source_.numbered() ? sizeof(std::uint64_t) : 0));
   streamed_.bytes = own_bytes_;
   require_memory(fmt::format("{} discs and blocks of {} rays", problem_.discs().size(), streamed_.block), own_bytes_);
@@ -72,32 +73,42 @@ void StreamedSearch::predict_bytes() {
 
 void StreamedSearch::search(std::uint64_t first, std::uint64_t last, Totals* totals) {
   if (stopped_) return;
+  constexpr std::size_t first_piece = std::size_t{1}
+                                      << 14;  // so that a run that is stopped early has searched some rays
   Outcome& outcome = streamed_.outcome;
-  const std::uint64_t of = outcome.progress.of + (last - first);
+  const auto end = [&] { return std::min(last, source_.size()); };
+  const std::uint64_t of = outcome.progress.of + (end() - first);
   const double bytes = streamed_.bytes;
   run_.totals = totals;
-  searching_ = static_cast<double>(last - first);
-  SuccessiveSearch search(*index_, problem_, run_, first, last, own_bytes_, outcome);
+  searching_ = static_cast<double>(end() - first);
+  SuccessiveSearch search(*index_, problem_, run_, first, end(), own_bytes_, outcome);
   outcome.progress.of = of;
+  std::size_t piece = index_->sorts_rays() ? streamed_.block : std::min(first_piece, streamed_.block);
   std::vector<Ray> block;
   std::vector<std::uint64_t> photons;  // their numbers; empty if rays have none
   try {
-    while (search.next() < last && !search.stopped()) {
+    while (search.next() < end() && !search.stopped()) {
       const std::uint64_t next = search.next();
-      if (options_.progress) options_.progress(static_cast<double>(searched_ + next - first) / expected());
+      if (options_.progress)
+        options_.progress(std::min(1.0, static_cast<double>(searched_ + next - first) / expected()));
       StopCheck(run_.stop, "reading rays").now();
       Stopwatch watch;
-      block.resize(static_cast<std::size_t>(std::min(last, source_.block_end(next, streamed_.block)) - next));
-      on_threads(thread_count(run_.threads), [&] { source_.read_numbered(next, block, photons, run_.stop); });
+      on_threads(thread_count(run_.threads), [&] {
+        const std::uint64_t to = source_.block_end(next, piece, run_.stop);
+        block.resize(static_cast<std::size_t>(std::min(last, to) - next));
+        source_.read_numbered(next, block, photons, run_.stop);
+      });
       streamed_.read_seconds += watch.lap();
       scratch_.begin();
       search.add({block, photons, {}});
+      piece = std::min(2 * piece, streamed_.block);
     }
   } catch (const Stopped&) {  // while making rays
     search.stop();
   }
-  search.finish(source_.photons());
-  searched_ += last - first;
+  const std::uint64_t done = first == 0 ? search.done() : source_.size();
+  search.finish(source_.photons_of(done), source_.scale(std::max<std::uint64_t>(1, done)));
+  searched_ += search.next() - first;
   stopped_ = outcome.stopped;
   streamed_.check_seconds += std::exchange(outcome.seconds.prepare, 0);
   streamed_.bytes = std::max(bytes, outcome.bytes);
@@ -126,7 +137,7 @@ StreamedOutcome run_streamed(std::span<const Disc> discs, const RaySource& sourc
                              const StreamOptions& options) {
   const DefaultFloatingPoint mode;
   StreamedSearch search(discs, source, candidate, options);
-  search.search(options.first, options.last.value_or(source.size()), options.run.totals);
+  search.search(options.first, options.last.value_or(UINT64_MAX), options.run.totals);
   return search.take();
 }
 

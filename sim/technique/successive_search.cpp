@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "detp/sim/base/memory.hpp"
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/search/irradiance.hpp"
 #include "detp/sim/search/soundness.hpp"
@@ -27,8 +30,7 @@ SuccessiveSearch::SuccessiveSearch(const Index& index, Problem problem, const Ru
       kept_bytes_(kept_bytes),
       sum_(sum) {
   check_options(options, problem_);
-  if (options.pairs && last >= UINT32_MAX)
-    throw std::length_error(fmt::format("{} rays are too many for pairs; the maximum is {}", last, UINT32_MAX - 1));
+  require_pairs(last);
   if (options.totals == nullptr) {
     if (options.standard_error) own_.keep_errors();
     own_.resize(problem_.discs().size());
@@ -44,7 +46,13 @@ SuccessiveSearch::SuccessiveSearch(const Index& index, Problem problem, const Ru
   sum_.bytes = kept_bytes;
 }
 
+void SuccessiveSearch::require_pairs(std::uint64_t last) const {
+  if (options_.pairs && last >= UINT32_MAX)
+    throw std::length_error(fmt::format("{} rays are too many for pairs; the maximum is {}", last, UINT32_MAX - 1));
+}
+
 void SuccessiveSearch::add(const PathRays& rays) {
+  require_pairs(next_ + rays.rays.size());
   Stopwatch watch;
   if (!rays.photons.empty())
     require_rising(next_, rays.photons.front(), std::exchange(last_photon_, rays.photons.back()));
@@ -53,8 +61,31 @@ void SuccessiveSearch::add(const PathRays& rays) {
   sim::search(index_, problem_, run_, part_);
   add_pairs();
   add_block(part_, sum_);
-  sum_.progress.done += part_.stopped ? part_.progress.done : rays.rays.size();
+  const std::uint64_t done = part_.stopped ? part_.progress.done : rays.rays.size();
+  done_ += done;
+  sum_.progress.done += done;
   next_ += rays.rays.size();
+  if (!part_.stopped && options_.stop.stop_possible()) add_batch();
+}
+
+/// The discs' irradiance by what the last batch and the rays since have brought. So rarely that it takes little of the time.
+void SuccessiveSearch::add_batch() {
+  constexpr double least_growth = 0.2;
+  const std::uint64_t done = next_ - first_;
+  const std::uint64_t rays = done - sum_.irradiance_batches.rays;
+  const std::span<const Disc> discs = problem_.discs();
+  if (options_.totals != nullptr || rays < discs.size() / 4 ||
+      static_cast<double>(rays) < least_growth * static_cast<double>(done))
+    return;
+  constexpr std::size_t at_once = std::size_t{1} << 14;
+  std::vector<double> parts((discs.size() + at_once - 1) / at_once);
+  sim::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
+    for (std::size_t i = part * at_once; i < std::min(discs.size(), (part + 1) * at_once); ++i)
+      parts[part] += own_.power(i, own_[i]) / (discs[i].radius * discs[i].radius);
+  });
+  const double irradiance = std::accumulate(parts.begin(), parts.end(), 0.0) / std::numbers::pi;
+  sum_.irradiance_batches.add(rays, irradiance - irradiance_);
+  irradiance_ = irradiance;
 }
 
 void SuccessiveSearch::add_pairs() {
@@ -68,12 +99,11 @@ void SuccessiveSearch::add_pairs() {
   for (const Pair& pair : part_.pairs) sum_.pairs.push_back({pair.ray + first, pair.disc});
 }
 
-void SuccessiveSearch::finish(std::uint64_t photons) {
+void SuccessiveSearch::finish(std::uint64_t photons, double scale) {
   if (sum_.stopped) sum_.pairs.clear();
-  run_.totals->emitted(photons);
+  sum_.progress.of = std::max(sum_.progress.of, sum_.progress.done);
+  run_.totals->emitted(photons, scale);
   if (options_.totals == nullptr) sim::finish(own_, problem_.discs(), sum_);
-  if (sum_.stopped) sum_.standard_error.clear();
-  if (sum_.stopped) sum_.upper_bound.clear();
 }
 
 }  // namespace detp::sim

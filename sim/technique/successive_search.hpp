@@ -24,16 +24,20 @@ class SuccessiveSearch {
 
   /// Number of the next ray.
   [[nodiscard]] std::uint64_t next() const { return next_; }
+  /// Rays that are searched; fewer than were added if a stop ended the last piece.
+  [[nodiscard]] std::uint64_t done() const { return done_; }
   [[nodiscard]] bool stopped() const { return sum_.stopped; }
   /// A stop was requested between pieces.
   void stop() { sum_.stopped = true; }
 
   /// Stores hits, irradiance and errors, unless options.totals are the caller's. `photons`: number of photons emitted, if more
-  /// than the rays show.
-  void finish(std::uint64_t photons = 0);
+  /// than the rays show; `scale`: of powers (RaySource).
+  void finish(std::uint64_t photons = 0, double scale = 1);
 
  private:
+  void require_pairs(std::uint64_t last) const;
   void add_pairs();
+  void add_batch();
 
   const Index& index_;
   Problem problem_;
@@ -43,10 +47,12 @@ class SuccessiveSearch {
   std::uint64_t first_;
   std::uint64_t last_;
   std::uint64_t next_;
+  std::uint64_t done_ = 0;
   double kept_bytes_;
   Outcome part_;
   Outcome& sum_;
   std::uint64_t last_photon_ = 0;
+  double irradiance_ = 0;  ///< sum over all discs, of finished batches
 };
 
 }  // namespace detp::sim

@@ -196,6 +196,7 @@ TEST_SUITE("identity") {
 
 TEST_SUITE("known answer") {
   TEST_CASE("stopped tracing says how many of the rays had been traced") {
+    use(tree());  // opened before work is logged
     std::stop_source source;
     const LoggedWork logged([&](std::uint64_t done) {
       if (done > 100 * block) source.request_stop();

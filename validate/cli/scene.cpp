@@ -151,8 +151,8 @@ Command scene_command(CLI::App& program) {
   const auto options = std::make_shared<SceneOptions>();
   options->workload.add_to(*app);
   app->add_option("--write-mesh", options->mesh_file, "write the triangles as PLY");
-  app->add_option("--write-discs", options->disc_file, "write the discs, as CSV or PLY by the file's name");
-  app->add_option("--write-rays", options->ray_file, "write the rays, as CSV or PLY by the file's name");
+  app->add_option("--write-discs", options->disc_file, "write the discs, as CSV, PLY or NPY by the file's name");
+  app->add_option("--write-rays", options->ray_file, "write the rays, as CSV, PLY or NPY by the file's name");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_scene(*options, common, stop);
           }};

@@ -14,6 +14,7 @@
 #include "detp/sim/effects/observe.hpp"
 #include "detp/sim/geometry/disc_source.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
+#include "detp/sim/photons/photon_source.hpp"
 #include "detp/sim/photons/ray_caster.hpp"
 #include "detp/sim/ranks/ranks.hpp"
 #include "detp/sim/rays/mixed_field.hpp"
@@ -66,8 +67,8 @@ struct JobRequest {
   /// True if only the workload is needed. If there are more rays than a block (sim::default_block), then only the first
   /// rays_of_workload are made, and the workload is measured on these. Has no effect on rays from a file.
   bool workload_only = false;
-  /// if the rays are not from a file, and fill more than a block, do not fit in memory beside the discs and an index, or are
-  /// shared by ranks (more than rays_of_workload), do not keep them in memory
+  /// The rays are for a search for pairs. Photon paths come with their photons' powers and a scale. If the rays are not from a file, and fill more than a block, do not fit in memory beside the discs and an index, or are
+  /// shared by ranks (more than rays_of_workload), they are not kept in memory
   bool stream = false;
   /// discs of a file that do not fit in memory stay there if they can be read in any order, and the rays are a stream
   bool store_discs = false;
@@ -112,10 +113,12 @@ struct Job {
   std::vector<sim::Ray> rays;           ///< all rays; empty if they are a stream; see workload_only
   std::vector<std::uint64_t> photons;   ///< numbers of the rays' photons, as in sim::PathRays
   std::vector<double> landings;         ///< where the photons met a surface, as in sim::PathRays
-  std::vector<std::uint32_t> triangles_met = {};  ///< as sim::PathRays::triangles
-  std::uint64_t photon_count = 0;                 ///< photons emitted; 0: one for each ray
-  std::vector<std::uint32_t> file_order;          ///< as sim::RayFile::order
-  std::unique_ptr<const sim::RaySource> stream;   ///< makes ray number i for any i; null if all rays are in memory
+  std::vector<std::uint32_t> triangles_met = {};     ///< as sim::PathRays::triangles
+  std::uint64_t photon_count = 0;                    ///< photons emitted; 0: one for each ray
+  double power_scale = 1;                            ///< PathRays::scale of the rays
+  std::vector<std::uint32_t> file_order;             ///< as sim::RayFile::order
+  std::unique_ptr<const sim::RaySource> stream;      ///< makes ray number i for any i; null if all rays are in memory
+  const sim::PhotonSource* photon_stream = nullptr;  ///< the same, if it traces photons, perhaps as they are read
   sim::Field field = sim::Field::isotropic;
   sim::FieldShares shares = {};  ///< of a mixed field
   std::uint64_t seed = 1;
@@ -126,14 +129,14 @@ struct Job {
   sim::Up up;                                         ///< by which lights were placed
   Workload given;             ///< without effects: numbers of rays and discs, sizes; known without measuring
   sim::SurfaceFacts surface;  ///< of the scene's mesh
-  std::optional<sim::LightLedger> light = {};  ///< of photon paths that were traced
+  std::optional<sim::LightLedger> light = {};  ///< of photon paths that were traced; of a stream, before it is read
   sim::PolygonCounts polygons = {};            ///< of the scene's mesh
   std::uint64_t normals_made = 0;              ///< Mesh::normals_made
   std::uint64_t coincident = 0;                ///< Mesh::coincident
   std::optional<Workload> numbers =
       {};  ///< of a workload in numbers: S₀ and box are its own, not those around the discs
   sim::Notices notices;
-  /// warnings about light that is lost (sim/photons/light_notes.hpp), and about a few discs or rays that distort the workload (outliers.hpp)
+  /// warnings about light that is lost (sim/photons/light_notes.hpp; of a stream, its reader has them), and about a few discs or rays that distort the workload (outliers.hpp)
   std::vector<std::string> warnings;
   bool front_facing = false;
   bool rays_from_file = false;
@@ -171,7 +174,11 @@ struct Job {
     all.insert(all.end(), warnings.begin(), warnings.end());
     return all;
   }
-  [[nodiscard]] sim::PathRays paths() const { return {rays, photons, landings, photon_count, triangles_met}; }
+  [[nodiscard]] sim::PathRays paths() const {
+    sim::PathRays all(rays, photons, landings, photon_count, triangles_met);
+    all.scale = power_scale;
+    return all;
+  }
   /// Rays have the numbers of their photons. If not, each is taken for a photon of its own.
   [[nodiscard]] bool numbered() const { return stream ? stream->numbered() : !photons.empty(); }
   /// Photons of all rays, independent of one another.

@@ -21,7 +21,6 @@
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/light_notes.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
-#include "detp/sim/photons/photon_source.hpp"
 #include "detp/sim/photons/photon_walk.hpp"
 #include "detp/sim/ranks/parts.hpp"
 #include "detp/sim/technique/ranked.hpp"
@@ -241,10 +240,11 @@ class JobMaker {
       return;
     }
     const sim::Scene& scene = scene_for_photons();
-    sim::TracedPaths traced =
-        sim::photon_paths(scene, count, request_.seed, caster_, stop_,
-                          request_.in_batches ? sim::PhotonPowers::equal : sim::PhotonPowers::unbiased);
+    using enum sim::PhotonPowers;
+    const auto powers = request_.in_batches ? equal : request_.stream ? scaled : unbiased;
+    sim::TracedPaths traced = sim::photon_paths(scene, count, request_.seed, caster_, stop_, powers);
     job_.light = traced.light;
+    job_.power_scale = traced.scale;
     keep(std::move(traced));
   }
 
@@ -305,8 +305,12 @@ class JobMaker {
       return;
     }
     const sim::Scene& scene = scene_for_photons();
-    auto source = std::make_unique<sim::PhotonSource>(scene, count, request_.seed, caster_, stop_, request_.ranks);
-    job_.light = source->light();
+    // Ranks share the counting. Rays that do not fit in memory beside the discs are read several times.
+    const bool once = (request_.ranks == nullptr || request_.ranks->count() == 1) && !job_.stored_discs;
+    auto source = std::make_unique<sim::PhotonSource>(scene, count, request_.seed, caster_, stop_, request_.ranks,
+                                                      once ? sim::Counting::as_read : sim::Counting::ahead);
+    job_.light = source->light_of(source->photons());
+    job_.photon_stream = source.get();
     job_.stream = std::move(source);
   }
 
@@ -334,7 +338,7 @@ class JobMaker {
     } else {
       job_.check_problem(request_.threads, stop_);
     }
-    if (job_.light) job_.warnings = sim::light_warnings(*job_.light, job_.lights);
+    if (job_.light && !job_.photon_stream) job_.warnings = sim::light_warnings(*job_.light, job_.lights);
     for (std::string& one : outlier_warnings(of_first ? *of_first : job_.problem(), stop_))
       job_.warnings.push_back(std::move(one));
     if (request_.workload_only && !request_.ray_file)

@@ -12,7 +12,7 @@
 namespace detp::sim {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Vectors, cull, test)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SphereCounts, rebuilds, tests, listed)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(HitBatches, count, rays, hits, squares)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Batches, count, rays, sum, squares)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Phases, prepare, order, build, search)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Outcome, hits, total_hits, counts, vectors, spheres, batches, seconds,
                                    standard_error, upper_bound)

@@ -220,7 +220,7 @@ std::uint64_t DiscResults::hits() const {
 
 void DiscResults::take_snapshot() {
   const std::uint64_t found = hits();
-  batches_.add(rays_ - snapshot_.rays, found - snapshot_.hits);
+  batches_.add(rays_ - snapshot_.rays, static_cast<double>(found - snapshot_.hits));
   snapshot_.rays = rays_;
   snapshot_.hits = found;
   snapshot_.sums = sums_;
@@ -258,7 +258,7 @@ void DiscResults::finish_outcome(std::span<const DiscRun> skipped) {
   outcome_.progress = {rays_, problem_.rays().size()};
   outcome_.stopped = rays_ < problem_.rays().size() || !sort_pairs(outcome_.pairs, options_.stop);
   if (outcome_.stopped) outcome_.pairs.clear();
-  if (rays_ > snapshot_.rays) batches_.add(rays_ - snapshot_.rays, outcome_.total_hits - snapshot_.hits);
+  if (rays_ > snapshot_.rays) batches_.add(rays_ - snapshot_.rays, static_cast<double>(outcome_.total_hits - snapshot_.hits));
   outcome_.batches = batches_;
   if (outcome_.stopped) outcome_.standard_error.clear();
   if (outcome_.stopped) outcome_.upper_bound.clear();
@@ -295,7 +295,7 @@ std::uint64_t DiscResults::store_counted(std::size_t first, std::size_t last) co
       outcome_.hits[disc] = std::uint64_t{x} + y + z;
       const double power = (sums.add(0, x) + sums.add(0, y)) + sums.add(0, z);
       const double radius = discs[disc].radius;
-      outcome_.irradiance[disc] = power / (std::numbers::pi * radius * radius);
+      outcome_.irradiance[disc] = power / (std::numbers::pi * radius * radius / problem_.scale());
       found += outcome_.hits[disc];
     }
   }

@@ -121,7 +121,7 @@ class DiscResults {
   std::uint64_t last_block_;  ///< of photons
   std::uint64_t tests_at_snapshot_ = 0;
   Snapshot snapshot_;
-  HitBatches batches_;
+  Batches batches_;
 };
 
 }  // namespace detp::sim::stream

@@ -86,14 +86,15 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("identity") {
-  TEST_CASE("one rank takes what one process takes, and sends nothing; lines are not counted") {
+  TEST_CASE("one rank takes what one process takes, sends nothing, and counts no rays ahead; nor are lines counted") {
     SharedSearch search = some_search();
     for (const SharedTime& time : {share_rays(search, 1), share_discs(search, 1)}) {
-      CHECK(time.total() == 10.5);
+      CHECK(time.total() == 6.5);
       CHECK(time.traffic == 0);
     }
+    CHECK(share_rays(search, 2).count == 2);
     search.photon_paths = false;
-    CHECK(share_rays(search, 1).total() == 6.5);
+    CHECK(share_rays(search, 2).count == 0);
   }
 
   TEST_CASE("more ranks have less to search, and with shared discs less memory; standard errors take more") {

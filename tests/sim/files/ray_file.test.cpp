@@ -33,7 +33,7 @@ TEST_SUITE("identity") {
         {.origin = {0.1, 2e-308, -3}, .direction = {0, 1, 0}, .length = unbounded, .power = 1},
         {.origin = {1e22, 0, 0}, .direction = glm::normalize(glm::dvec3{1, 2, 3}), .length = 0.7, .power = 1e-9}};
     const ScratchFolder folder;
-    for (const char* name : {"rays.csv", "rays.ply", "rays"}) {
+    for (const char* name : {"rays.csv", "rays.ply", "rays.npy", "rays"}) {
       write_rays(folder.path(name), rays);
       const std::vector<Ray> back = read_rays(folder.path(name)).paths.rays;
       REQUIRE(back.size() == 2);
@@ -54,7 +54,7 @@ TEST_SUITE("photons in files") {
     const std::vector<std::uint64_t> photons{0, 0, 1};
     const std::vector<double> landings{0.5, 1.999, unbounded};
     const ScratchFolder folder;
-    for (const char* name : {"rays.csv", "rays.ply"}) {
+    for (const char* name : {"rays.csv", "rays.ply", "rays.npy"}) {
       write_rays(folder.path(name), PathRays{rays, photons, landings});
       const RayFile back = read_rays(folder.path(name));
       CHECK(back.paths.photons == photons);

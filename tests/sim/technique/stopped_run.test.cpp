@@ -78,7 +78,7 @@ void check_stopped(const Outcome& outcome, std::span<const Ray> rays) {
   CHECK(outcome.done_discs.empty());
   CHECK(outcome.progress.of == rays.size());
   CHECK(outcome.batches.rays == outcome.progress.done);
-  CHECK(outcome.batches.hits == outcome.total_hits);
+  CHECK(outcome.batches.sum == static_cast<double>(outcome.total_hits));
   if (outcome.progress.done == 0) {
     CHECK(outcome.total_hits == 0);
     return;
@@ -173,21 +173,21 @@ TEST_SUITE("known answer") {
     const std::vector<Ray> rays = lines(20'000);
     const auto all = static_cast<double>(truth(rays).total_hits);
     for (const std::uint64_t first : {3840U, 19'968U}) {
-      HitBatches batches;
+      Batches batches;
       for (std::uint64_t ray = 0; ray < first; ray += 768)
-        batches.add(768, truth(std::span(rays).subspan(ray, 768)).total_hits);
-      const HitEstimate estimate = estimate_hits(batches, rays.size());
-      CHECK(std::abs(estimate.hits - all) < 5 * *estimate.standard_error);
+        batches.add(768, static_cast<double>(truth(std::span(rays).subspan(ray, 768)).total_hits));
+      const SumEstimate estimate = estimate_sum(batches, rays.size());
+      CHECK(std::abs(estimate.value - all) < 5 * *estimate.standard_error);
       CHECK(*estimate.standard_error < 0.1 * all);
     }
-    HitBatches one;
+    Batches one;
     one.add(10, 3);
-    CHECK(estimate_hits(one, 100).hits == 30);
-    CHECK_FALSE(estimate_hits(one, 100).standard_error);
+    CHECK(estimate_sum(one, 100).value == 30);
+    CHECK_FALSE(estimate_sum(one, 100).standard_error);
     one.add(10, 5);
     // The batch means 0.3 and 0.5 give a ray's hits the variance 10 · 0.1² + 10 · 0.1² = 0.2. With 20 of 100 rays
     // searched, the squared standard error is 100 · 80 / 20 · 0.2.
-    CHECK(*estimate_hits(one, 100).standard_error == doctest::Approx(std::sqrt(80.0)));
+    CHECK(*estimate_sum(one, 100).standard_error == doctest::Approx(std::sqrt(80.0)));
   }
 }
 

@@ -417,7 +417,7 @@ Command accuracy_command(CLI::App& program) {
   add_count(*app, "--rays", options->rays, "at most so many pieces of photon paths, as 10M; default: 1e9");
   add_count(*app, "--samples", options->samples, "how many samples; default: the scene's vertices");
   app->add_option("--discs", options->discs,
-                  "the discs in question, from a CSV or PLY file; default: one at each of the scene's samples");
+                  "the discs in question, from a CSV, PLY or NPY file; default: one at each of the scene's samples");
   app->add_option(
       "--disc-radius", options->disc_radius,
       "radii from half to four times this one are tried (a length, or a percentage); default: from a quarter "

@@ -33,8 +33,8 @@ const std::vector<OutputOption>& output_options() {
   static const std::vector<OutputOption> all{{"--per-disc", {".csv"}},
                                              {"--pairs", {".csv"}},
                                              {"--write-mesh", {".ply"}},
-                                             {"--write-discs", {".csv", ".ply"}},
-                                             {"--write-rays", {".csv", ".ply"}},
+                                             {"--write-discs", {".csv", ".ply", ".npy"}},
+                                             {"--write-rays", {".csv", ".ply", ".npy"}},
                                              {"--reference"},
                                              {"--checkpoint"},
                                              {"--sweep-rows", {".csv"}}};
@@ -44,7 +44,7 @@ const std::vector<OutputOption>& output_options() {
 constexpr auto input_options = {"SCENE", "--discs", "--ray-file", "--calibration"};
 
 /// Suffixes of formats that other files have.
-const Suffixes taken{".csv", ".ply", ".obj", ".mtl", ".svg", ".html", ".htm"};
+const Suffixes taken{".csv", ".ply", ".npy", ".obj", ".mtl", ".svg", ".html", ".htm"};
 
 /// A file that the options name, and how.
 struct NamedFile {

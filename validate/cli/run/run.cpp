@@ -169,8 +169,15 @@ void check_options(const RunOptions& options, std::size_t rows) {
 std::optional<sim::Progress> write_hits(const RunOptions& options, const validate::Job& job, const RunAnswer& answer,
                                         const CommonOptions& common, const std::stop_token& stop) {
   const sim::Outcome& outcome = answer.run.outcome;
-  if (outcome.stopped && (options.per_disc || options.pairs))
+  // By the photons so far, the irradiance is an estimate; sums over other rays would be too small.
+  const bool is_estimate = outcome.stopped && answer.taken;
+  if (outcome.stopped && ((options.per_disc && !is_estimate) || options.pairs))
     note(common, "stopped before the end: --per-disc and --pairs are not written, because they would be partial");
+  if (is_estimate && options.per_disc) {
+    note(common, fmt::format("{} has the irradiance by the photons of the first {} rays", *options.per_disc,
+                             outcome.progress.done));
+    write_per_disc(*options.per_disc, answer.run, job.vertices, {});
+  }
   if (outcome.stopped) return outcome.progress;
   const bool in_time = !answer.until || answer.until->result.reason != validate::StopReason::time;
   try {
@@ -235,6 +242,14 @@ void choose_and_run(RunAnswer& answer, const validate::Question& question, const
   }
 }
 
+/// Nothing if the run was stopped before its first ray.
+std::optional<RaysTaken> taken_of(const sim::PhotonSource& source, const sim::Outcome& outcome) {
+  const std::uint64_t rays = outcome.stopped ? outcome.progress.done : source.size();
+  const std::uint64_t photons = source.photons_of(rays);
+  if (photons == 0) return std::nullopt;
+  return RaysTaken{static_cast<double>(rays), static_cast<double>(photons), source.light_of(photons)};
+}
+
 RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CostTable& costs,
                   const CommonOptions& common, const std::stop_token& stop, const sim::ReportPhase& progress) {
   const validate::Question question{.problem = job.stream ? nullptr : &job.problem(),
@@ -290,6 +305,7 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
   } else {
     answer.run = run_job(job, request_of(answer, job), run, sim::part_of(progress, 0, share_of_first), together);
   }
+  if (job.photon_stream && common.answers()) answer.taken = taken_of(*job.photon_stream, answer.run.outcome);
   run.threads = answer.threads;
   run.count = run.pairs = false;
   answer.timing = time_runs(job, request_of(answer, job), answer.run, answer.run.outcome.stopped ? 0 : options.repeat,

@@ -9,6 +9,7 @@
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/rank/registry.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/sim/photons/light_notes.hpp"
 #include "detp/sim/technique/ranked.hpp"
 #include "detp/validate/calibration/sum_costs.hpp"
 #include "detp/validate/cli/options/sphere_stops.hpp"
@@ -16,6 +17,7 @@
 #include "detp/validate/cli/report/effects_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/text_table.hpp"
+#include "detp/validate/stopping/job_batches.hpp"
 #include "run_until.hpp"
 
 namespace detp::cli {
@@ -83,26 +85,46 @@ Json unit_times(const Counts<double>& counts, Technique technique, const std::st
 }
 
 /// The estimated hits of all rays; nothing if no ray is finished, or if the finished rays do not represent all rays.
-std::optional<sim::HitEstimate> estimate(const RunAnswer& answer) {
+std::optional<sim::SumEstimate> estimate(const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
   if (!answer.random_rays || outcome.batches.rays == 0) return std::nullopt;
-  return sim::estimate_hits(outcome.batches, outcome.progress.of);
+  return sim::estimate_sum(outcome.batches, outcome.progress.of);
 }
 
-Json hits_so_far(const RunAnswer& answer) {
+/// What the first rays say of the mean irradiance by all; nothing if they do not represent all rays.
+std::optional<sim::SumEstimate> irradiance_estimate(const validate::Job& job, const RunAnswer& answer) {
+  const sim::Outcome& outcome = answer.run.outcome;
+  if (!answer.random_rays || outcome.irradiance_batches.rays == 0) return std::nullopt;
+  const double share = static_cast<double>(outcome.progress.done) / static_cast<double>(outcome.progress.of);
+  sim::SumEstimate estimate{mean_irradiance(answer) / (validate::powers_add_up(job) ? share : 1), std::nullopt};
+  const sim::SumEstimate sum = estimate_sum(outcome.irradiance_batches, outcome.progress.of);
+  if (sum.standard_error && sum.value > 0) estimate.standard_error = estimate.value * *sum.standard_error / sum.value;
+  return estimate;
+}
+
+std::string with_error(const std::optional<double>& standard_error) {
+  return standard_error ? fmt::format(" ± {:.2g}", *standard_error) : " (error not known)";
+}
+
+Json hits_so_far(const validate::Job& job, const RunAnswer& answer) {
   Json json{{"hits", nullptr},
             {"hits_per_disc", nullptr},
             {"mean_irradiance", nullptr},
+            {"mean_irradiance_error", nullptr},
             {"hits_so_far", answer.run.outcome.total_hits},
             {"hits_estimate", nullptr}};
   if (const auto all = estimate(answer)) {
-    json["hits_estimate"] = {{"value", all->hits}, {"standard_error", nullptr}};
+    json["hits_estimate"] = {{"value", all->value}, {"standard_error", nullptr}};
     if (all->standard_error) json["hits_estimate"]["standard_error"] = *all->standard_error;
+  }
+  if (const auto mean = irradiance_estimate(job, answer)) {
+    json["mean_irradiance"] = mean->value;
+    if (mean->standard_error) json["mean_irradiance_error"] = *mean->standard_error;
   }
   return json;
 }
 
-std::string hits_text(const RunAnswer& answer) {
+std::string hits_text(const validate::Job& job, const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
   if (!outcome.stopped)
     return fmt::format("{}, {:.4g} a disc; mean irradiance {:.6g}", outcome.total_hits, hits_per_disc(answer),
@@ -110,15 +132,18 @@ std::string hits_text(const RunAnswer& answer) {
   std::string text =
       fmt::format("{} of the {} {} done", outcome.total_hits, outcome.progress.done, outcome.progress.unit);
   if (const auto all = estimate(answer)) {
-    text += fmt::format("; of all rays an estimated {:.5g}", all->hits);
-    text += all->standard_error ? fmt::format(" ± {:.2g}", *all->standard_error) : " (error not known)";
+    text += fmt::format("; of all rays an estimated {:.5g}", all->value);
+    text += with_error(all->standard_error);
   }
+  if (const auto mean = irradiance_estimate(job, answer))
+    text +=
+        fmt::format("; mean irradiance by all an estimated {:.6g}{}", mean->value, with_error(mean->standard_error));
   return text;
 }
 
 /// Nothing if a run took the job's rays.
 std::optional<RaysTaken> taken_by(const validate::Job& job, const RunAnswer& answer) {
-  if (!answer.until) return std::nullopt;
+  if (!answer.until) return answer.taken;
   const validate::UntilResult& result = answer.until->result;
   return RaysTaken{static_cast<double>(result.rays), result.photons,
                    job.light ? std::optional(answer.until->light) : std::nullopt};
@@ -163,12 +188,14 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
     json["parameters"] = to_json(answer.candidate);
     add_stops(job.workload(), answer.candidate, answer.costs, json);
   }
-  json.update(outcome.stopped ? hits_so_far(answer)
+  json.update(outcome.stopped ? hits_so_far(job, answer)
                               : Json{{"hits", outcome.total_hits},
                                      {"hits_per_disc", hits_per_disc(answer)},
                                      {"mean_irradiance", mean_irradiance(answer)}});
-  json["rays"] = gathers(answer) ? whole(0) : whole(job.given.rays);
-  json["photons"] = gathers(answer) ? 0 : job.independent_photons();
+  json["rays"] = gathers(answer) ? whole(0) : whole(answer.taken ? answer.taken->rays : job.given.rays);
+  json["photons"] = gathers(answer) ? Json(0)
+                    : answer.taken  ? whole(answer.taken->photons)
+                                    : Json(job.independent_photons());
   if (gathers(answer))
     json.update({{"paths", answer.paths},
                  {"missed_share", answer.run.missed.share},
@@ -201,7 +228,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                {"stopped", outcome.stopped}});
   json.update(ledgers_json(job));
   if (gathers(answer)) json.erase("light");
-  if (job.light && answer.until) json["light"] = light_json(answer.until->light);
+  if (const auto taken = taken_by(job, answer); taken && taken->light) json["light"] = light_json(*taken->light);
   if (json.contains("geometry") && !outcome.stopped) json["geometry"]["samples_unlit"] = discs_without_hits(answer.run);
   if (const auto& seconds = answer.run.rank_seconds; !seconds.empty())
     json["ranks"] = {{"count", seconds.size()},
@@ -306,8 +333,17 @@ AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer
 
 Columns run_columns() {
   return workload_columns() + Columns{"estimator", "paths", "engine", "threads"} + candidate_columns() +
-         Columns{"k",       "k_max",         "k_best",          "k_published",  "k_corrected",
-                 "photons", "hits_per_disc", "mean_irradiance", "missed_share", "missed_share_bound"} +
+         Columns{"k",
+                 "k_max",
+                 "k_best",
+                 "k_published",
+                 "k_corrected",
+                 "photons",
+                 "hits_per_disc",
+                 "mean_irradiance",
+                 "mean_irradiance_error",
+                 "missed_share",
+                 "missed_share_bound"} +
          count_columns() + count_columns("predicted_") +
          Columns{"rebuild_time", "intersect_time", "predicted_rebuild_time", "predicted_intersect_time"} +
          Columns{"predicted_seconds",
@@ -355,6 +391,7 @@ TextColumns run_text_columns(const Screen& screen) {
 
 std::vector<std::string> answer_warnings(const validate::Job& job, const RunAnswer& answer) {
   std::vector<std::string> all;
+  if (answer.taken && answer.taken->light) all = sim::light_warnings(*answer.taken->light, job.lights);
   if (!answer.run.outcome.stopped && answer.run.outcome.total_hits == 0) all.push_back(why_nothing(job, answer));
   if (const sim::MissedShare& missed = answer.run.missed; missed.upper_bound > 0)
     all.push_back(
@@ -386,7 +423,7 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
                                               1e3 * answer.choice->choosing_seconds, answer.choice->sampled_rays)
                                 : ", by the numbers of rays and discs: a pilot would take longer than it saves"));
   if (verbose && !gathers(answer)) add(effects_line(job.observed().effects));
-  add("hits      " + hits_text(answer));
+  add("hits      " + hits_text(job, answer));
   for (const std::string& one : answer_warnings(job, answer)) add("warning   " + one);
   add(
       fmt::format("seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}{}; not included: "

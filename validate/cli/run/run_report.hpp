@@ -6,6 +6,7 @@
 #include "detp/validate/accuracy/error_split.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/cli/report/answer_rows.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/stopping/run_until.hpp"
 #include "timed_run.hpp"
 
@@ -54,6 +55,7 @@ struct RunAnswer {
   int repeat = 0;               ///< timed runs requested
   bool standard_error = false;  ///< requested
   std::optional<UntilAnswer> until = {};
+  std::optional<RaysTaken> taken = {};  ///< of a stream of photon paths: those that were searched
   bool random_rays = false;  ///< true for rays of a random field: the first rays are representative of all rays
 };
 

@@ -13,7 +13,9 @@ TEST_SUITE("end to end") {
         if (tip.at("input") == "rays" && tip.at("change") == "technique" && tip.at("ratio") < 1) return tip;
       return Json();
     };
-    for (const auto& [rays, rigor] : {std::pair(60, ""), {60, " --rigor structural"}, {100, " --rigor estimate"}}) {
+    for (const auto& row : {std::pair(60, ""), {60, " --rigor structural"}, {100, " --rigor estimate"}}) {
+      const int rays = row.first;
+      const std::string rigor = row.second;  // not a structured binding, which CAPTURE cannot take
       CAPTURE(rigor);
       const std::string line = scene + std::to_string(rays) + rigor;
       const Json json = result_of(line);

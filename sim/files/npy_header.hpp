@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "input_file.hpp"
+#include "number_bytes.hpp"
+
+/// The header of a file of NumPy (.npy): one array, with one row for each ray or disc.
+namespace detp::sim {
+
+/// A number of each row.
+struct NpyField {
+  std::string name;  ///< of a structured array; empty in an array of plain numbers
+  NumberType type = NumberType::float64;
+  std::size_t offset = 0;  ///< in the row, bytes
+  bool swapped = false;    ///< the bytes have the other order than this machine's
+};
+
+struct NpyHeader {
+  std::uint64_t rows = 0;
+  std::size_t row_size = 0;      ///< bytes
+  std::vector<NpyField> fields;  ///< a structured array's, or the columns of a plain one
+};
+
+/// Reads the header from the front of a file, and leaves the position at the first row. Throws FileError for other files, arrays
+/// that are neither structured with one dimension nor plain with two, that are in Fortran order, or whose numbers are no integers or floats of 1 to 8 bytes.
+[[nodiscard]] NpyHeader read_npy_header(InputFile& file);
+
+/// The header of a structured array of doubles in little endian.
+[[nodiscard]] std::string npy_header(const std::vector<std::string_view>& columns, std::uint64_t rows);
+
+}  // namespace detp::sim
