@@ -13,7 +13,8 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::uint64_t block_size = 256;  // number of photons that one thread traces at a time
+constexpr std::uint64_t block_size = 256;              // number of photons that one thread traces at a time
+constexpr std::uint64_t photons_in_round = 1ULL << 17;  // photons, whose pieces are in memory beside the paths
 
 /// Of a block, photons beyond those that have `most` pieces alone are not traced.
 std::vector<PhotonPieces> trace_round(const PhotonTracer& tracer, std::uint64_t first, std::uint64_t photons,
@@ -32,6 +33,15 @@ std::size_t whole_photons(const PhotonPieces& pieces, std::size_t missing) {
   if (missing >= pieces.rays.size()) return pieces.rays.size();
   const auto end = std::ranges::upper_bound(pieces.photons, pieces.photons[missing - 1]);
   return static_cast<std::size_t>(end - pieces.photons.begin());
+}
+
+/// For `count` pieces and the rest of the last photon's.
+void reserve(std::size_t count, Paths& paths) {
+  const std::size_t room = count + count / 256 + 64;
+  paths.rays.reserve(room);
+  paths.photons.reserve(room);
+  paths.landings.reserve(room);
+  paths.triangles.reserve(room);
 }
 
 void append(const PhotonPieces& pieces, std::size_t count, Paths& paths) {
@@ -60,8 +70,9 @@ TracedPaths photon_paths(const Scene& scene, std::size_t count, std::uint64_t se
                          std::shared_ptr<const RayCaster> caster, const std::stop_token& stop, PhotonPowers powers) {
   const DefaultFloatingPoint mode;
   const PhotonTracer tracer(scene, seed, std::move(caster));
-  PhotonRounds rounds(scene.name, count);
+  PhotonRounds rounds(scene.name, count, photons_in_round);
   TracedPaths paths;
+  reserve(count, paths);
   std::vector<PathEnd> ends;  // of photons
   std::uint64_t traced = 0;
   StopCheck check(stop, "copying photon paths");

@@ -80,15 +80,10 @@ const PhotonPieces& PhotonSource::pieces_of(std::uint64_t group, PhotonPieces& t
   return traced = trace_group(group, stop);
 }
 
-std::unique_ptr<const PhotonPieces> PhotonSource::keep(PhotonPieces&& pieces) const {
+std::unique_ptr<const PhotonPieces> PhotonSource::keep(const PhotonPieces& pieces) const {
   const std::size_t bytes = pieces.rays.size() * bytes_of_ray;
   const std::uint64_t all = known_->kept_bytes.fetch_add(bytes) + bytes;
-  if (counting_ == Counting::as_read) {
-    pieces.landings = {};
-    pieces.triangles = {};
-    return std::make_unique<PhotonPieces>(std::move(pieces));
-  }
-  if (static_cast<double>(all) > most_kept_) return nullptr;
+  if (counting_ == Counting::ahead && static_cast<double>(all) > most_kept_) return nullptr;
   auto kept = std::make_unique<PhotonPieces>();
   kept->rays.assign(pieces.rays.begin(), pieces.rays.end());
   kept->photons.assign(pieces.photons.begin(), pieces.photons.end());
@@ -97,9 +92,7 @@ std::unique_ptr<const PhotonPieces> PhotonSource::keep(PhotonPieces&& pieces) co
 
 double PhotonSource::kept_bytes(std::size_t block) const {
   if (counting_ == Counting::ahead) return std::min(static_cast<double>(known_->kept_bytes), most_kept_);
-  constexpr double growth = 1.5;  // of arrays whose size is not known before
-  return growth *
-         std::min(static_cast<double>(wanted_ * bytes_of_ray), most_kept_ + static_cast<double>(block * bytes_of_ray));
+  return std::min(static_cast<double>(wanted_ * bytes_of_ray), most_kept_ + static_cast<double>(block * bytes_of_ray));
 }
 
 void PhotonSource::know(std::uint64_t rays, Ranks& ranks, const std::stop_token& stop) const {
@@ -135,10 +128,10 @@ void PhotonSource::count_rays(std::uint64_t groups, Ranks& ranks, const std::sto
   const auto [first, last] = part_of(found.size(), ranks);
   do_on_all(ranks, [&, begin = std::max(first, skipped), end = last] {
     sim::parallel_for(begin, end, [&](std::size_t i) {
-      PhotonPieces pieces = trace_group(start + i, stop);
+      const PhotonPieces pieces = trace_group(start + i, stop);
       found[i].rays = pieces.rays.size();
       found[i].light = ledger_of(tracer_, (start + i) * group_size, pieces, pieces.ends.size());
-      all.kept[start + i] = keep(std::move(pieces));
+      all.kept[start + i] = keep(pieces);
     });
   });
   share_parts(ranks, std::span(found));

@@ -72,7 +72,7 @@ class PhotonSource final : public RaySource {
   /// The group's rays: those kept, or else `traced`, which it fills.
   const PhotonPieces& pieces_of(std::uint64_t group, PhotonPieces& traced, const std::stop_token& stop) const;
   /// Keeps the pieces if they fit, or are to be read.
-  std::unique_ptr<const PhotonPieces> keep(PhotonPieces&& pieces) const;
+  std::unique_ptr<const PhotonPieces> keep(const PhotonPieces& pieces) const;
   /// Traces until so many rays are known, or all.
   void know(std::uint64_t rays, Ranks& ranks, const std::stop_token& stop) const;
   void know_all(const std::stop_token& stop = {}) const;

@@ -85,7 +85,9 @@ void StreamedSearch::search(std::uint64_t first, std::uint64_t last, Totals* tot
   outcome.progress.of = of;
   std::size_t piece = index_->sorts_rays() ? streamed_.block : std::min(first_piece, streamed_.block);
   std::vector<Ray> block;
-  std::vector<std::uint64_t> photons;  // their numbers; empty if rays have none
+  block.reserve(std::min<std::uint64_t>(streamed_.block,
+                                        end() - first));  // in one piece: smaller ones would stay with the allocator
+  std::vector<std::uint64_t> photons;                     // their numbers; empty if rays have none
   try {
     while (search.next() < end() && !search.stopped()) {
       const std::uint64_t next = search.next();

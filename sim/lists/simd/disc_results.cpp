@@ -258,7 +258,8 @@ void DiscResults::finish_outcome(std::span<const DiscRun> skipped) {
   outcome_.progress = {rays_, problem_.rays().size()};
   outcome_.stopped = rays_ < problem_.rays().size() || !sort_pairs(outcome_.pairs, options_.stop);
   if (outcome_.stopped) outcome_.pairs.clear();
-  if (rays_ > snapshot_.rays) batches_.add(rays_ - snapshot_.rays, static_cast<double>(outcome_.total_hits - snapshot_.hits));
+  if (rays_ > snapshot_.rays)
+    batches_.add(rays_ - snapshot_.rays, static_cast<double>(outcome_.total_hits - snapshot_.hits));
   outcome_.batches = batches_;
   if (outcome_.stopped) outcome_.standard_error.clear();
   if (outcome_.stopped) outcome_.upper_bound.clear();

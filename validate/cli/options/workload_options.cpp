@@ -69,7 +69,8 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
       "@shells:7, @details:7");
   command.add_option("--discs", request_.disc_file,
                      "discs from a CSV, PLY or NPY file; default: one at each of the scene's samples");
-  command.add_option("--ray-file", request_.ray_file, "rays from a CSV, PLY or NPY file; default: made, as --field says");
+  command.add_option("--ray-file", request_.ray_file,
+                     "rays from a CSV, PLY or NPY file; default: made, as --field says");
   lists.add_count(command, "--rays", axes.value_or(values), request_.rays, "how many rays, as 100k; default: 100k");
   lists.add_count(command, "--samples", values, request_.samples,
                   "how many samples; default: the scene's vertices, with numbers alone none");
