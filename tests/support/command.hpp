@@ -216,7 +216,7 @@ inline Json without_times(const Json& json) {
     if (json.is_array()) {
       rest.push_back(without_times(value));
     } else if (!key.starts_with("measured_") && !key.ends_with("seconds") && key != "threads" && key != "regret" &&
-               key != "choosing_share") {
+               key != "choosing_share" && !key.starts_with("whole") && key != "peak_bytes_measured") {
       rest[key] = without_times(value);
     } else if (key == "predicted_seconds") {
       rest[key] = value;

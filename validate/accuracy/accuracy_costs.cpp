@@ -40,12 +40,19 @@ GrowingSeconds operator+(const GrowingSeconds& a, const GrowingSeconds& b) {
 }
 
 AccuracyCosts::AccuracyCosts(std::size_t triangles, int threads)
-    : triangles_(static_cast<double>(triangles)),
-      unit_(1e-6 * machine_ratio() / measured_ratio * measured_threads / sim::useful_threads(threads)) {}
+    : triangles_(static_cast<double>(triangles)), unit_(0), unit_of_one_(1e-6 * machine_ratio() / measured_ratio) {
+  unit_ = unit_of_one_ * measured_threads / sim::useful_threads(threads);
+}
 
 double AccuracyCosts::caster() const { return unit_ * 0.6 * triangles_; }
 
-GrowingSeconds AccuracyCosts::trace() const { return {caster(), unit_ * 0.05 * log_of(triangles_)}; }
+GrowingSeconds AccuracyCosts::trace() const { return {caster(), unit_ * 0.027 * log_of(triangles_)}; }
+
+GrowingSeconds AccuracyCosts::lines() const { return {0, unit_ * 0.03}; }
+
+double AccuracyCosts::read(double text_bytes, double binary_bytes, double discs) const {
+  return unit_of_one_ * (1.7 * triangles_ + 0.3 * discs + 0.003 * text_bytes + 0.001 * binary_bytes);
+}
 
 double AccuracyCosts::path(double casts) const { return unit_ * (0.1 + 0.026 * log_of(triangles_)) * casts; }
 

@@ -26,8 +26,9 @@ struct SettingCounts {
   double nearest_per_ray = 0;   ///< k over the number of rays
 };
 
-/// Unit costs are those of two virtual cores of an AMD EPYC (Zen 3, AVX2), measured in six built-in scenes with 2·10⁴ to 10⁶ rays; a stored
-/// calibration scales them by its box tree's.
+/// Unit costs are those of two virtual cores of an AMD EPYC (Zen 3, AVX2), measured in six built-in scenes with 2·10⁴ to 10⁶ rays; those of
+/// tracing and reading of an AMD EPYC (Zen 5), five built-in scenes and four meshes of 60 000 to 450 000 triangles. A stored calibration scales them by its
+/// box tree's.
 class AccuracyCosts {
  public:
   /// `threads`: 0: all cores.
@@ -43,10 +44,17 @@ class AccuracyCosts {
   [[nodiscard]] double path(double casts) const;
   /// Building what traces rays.
   [[nodiscard]] double caster() const;
+  /// Making lines of a field.
+  [[nodiscard]] GrowingSeconds lines() const;
+  /// Reading so many bytes of text and of numbers, or making a built-in scene, with what is made of the mesh, and so many discs.
+  [[nodiscard]] double read(double text_bytes, double binary_bytes, double discs) const;
+  /// On one thread, what takes so many microseconds where the unit costs were measured.
+  [[nodiscard]] double on_one_thread(double microseconds) const { return unit_of_one_ * microseconds; }
 
  private:
   double triangles_;
-  double unit_;  ///< seconds of a microsecond's work there
+  double unit_;         ///< seconds of a microsecond's work there
+  double unit_of_one_;  ///< the same on one thread
 };
 
 }  // namespace detp::validate

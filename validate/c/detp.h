@@ -155,6 +155,8 @@ typedef struct detp_plan_facts {
   double predicted_error;   /* standard error of it; 0: not known */
   double planning_seconds;
   double predicted_seconds_again; /* of a repeated search, in the scratch of an earlier one */
+  double prepare_seconds;         /* of predicted_seconds: sorting the discs and building the index */
+  double peak_bytes;              /* predicted memory of rays, discs and a first search of them */
 } detp_plan_facts;
 
 DETP_API detp_status detp_plan_describe(const detp_plan *plan, detp_plan_facts *facts, detp_error *error);

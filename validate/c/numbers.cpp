@@ -155,6 +155,9 @@ detp_status detp_choose(const detp_workload* workload, const detp_costs* costs, 
     ours.threads = best.threads;
     ours.predicted_seconds = best.time.total();
     ours.predicted_seconds_again = best.time.again();
+    ours.prepare_seconds = best.time.order + best.time.build;
+    ours.peak_bytes =
+        sizeof(sim::Ray) * workload->rays + sizeof(sim::Disc) * workload->samples + best.counts.bytes_touched;
     ours.predicted_error = 0;
     ours.planning_seconds = choice.choosing_seconds;
     c::write_back(facts, ours);

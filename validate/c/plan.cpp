@@ -81,6 +81,8 @@ detp_status detp_plan_describe(const detp_plan* plan, detp_plan_facts* facts, de
     ours.threads = one.plan.threads();
     ours.predicted_seconds = one.plan.predicted_seconds();
     ours.predicted_seconds_again = one.plan.predicted_seconds_again();
+    ours.prepare_seconds = one.plan.prepare_seconds();
+    ours.peak_bytes = one.plan.peak_bytes();
     ours.predicted_error = one.plan.predicted_error();
     ours.planning_seconds = one.plan.planning_seconds();
     c::write_back(facts, ours);

@@ -25,7 +25,7 @@ namespace detp::validate {
 namespace {
 
 constexpr double seconds_of_probe = 0.2;
-constexpr int least_rounds = 2;
+constexpr int least_rounds = 3;
 
 /// ln(measured over predicted seconds), of some searches.
 struct Ratios {
@@ -50,6 +50,14 @@ struct PhaseRatios {
     return (prepares && preparing.count > 0 ? preparing : search).mean();
   }
 };
+
+/// The middle one, the lower of two. The least would be wrong: now and then a virtual machine's clock of processor time shows a thirtieth of what
+/// passed.
+double usual(std::vector<double> seconds) {
+  const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>((seconds.size() - 1) / 2);
+  std::ranges::nth_element(seconds, middle);
+  return *middle;
+}
 
 /// Of middling speed for a thousand discs; default_candidate() of cells is for many more.
 Candidate probed_candidate(Technique technique) {
@@ -131,8 +139,8 @@ class Probe {
     const CostBreakdown predicted = price(one.counts, built_in_unit_costs(one.engine), one.candidate.technique);
     PhaseRatios& ratios = of(one.engine, one.candidate.technique);
     const CheckSeconds& checks = one.workload->checks;
-    ratios.preparing.add(std::ranges::min(one.preparing) + checks.discs, predicted.order + predicted.build);
-    ratios.search.add(std::ranges::min(one.search) + checks.rays,
+    ratios.preparing.add(usual(one.preparing) + checks.discs, predicted.order + predicted.build);
+    ratios.search.add(usual(one.search) + checks.rays,
                       predicted.total() - predicted.order - predicted.build);
   }
 

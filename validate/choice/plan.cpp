@@ -159,6 +159,8 @@ class Plan::Planner {
     const double reading = reading_ * basis_->rays / static_cast<double>(rays_.size());
     made.predicted_seconds_ = best.time.total() + reading;
     made.predicted_seconds_again_ = best.time.again() + reading;
+    made.prepare_seconds_ = best.time.order + best.time.build;
+    made.peak_bytes_ = bytes_in_memory(basis_->rays, basis_->problem.discs().size(), best.counts.bytes_touched);
     made.predicted_error_ = best.error;
     made.planning_seconds_ = seconds_;
     made.rays_ = basis_->rays;

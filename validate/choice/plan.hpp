@@ -47,6 +47,10 @@ class Plan {
   [[nodiscard]] double predicted_seconds() const { return predicted_seconds_; }
   /// The same of a repeated search, whose memory (sim::SearchScratch) is that of an earlier one.
   [[nodiscard]] double predicted_seconds_again() const { return predicted_seconds_again_; }
+  /// Of predicted_seconds, sorting the discs and building the index.
+  [[nodiscard]] double prepare_seconds() const { return prepare_seconds_; }
+  /// Predicted memory of rays, discs and a first search of them, bytes.
+  [[nodiscard]] double peak_bytes() const { return peak_bytes_; }
   /// Standard error of the predicted time: because the pilot has only a sample of rays and subtrees, and because of the unit
   /// costs (CostTable::relative_errors). After `replan`, that of the extrapolation comes in addition.
   [[nodiscard]] double predicted_error() const { return predicted_error_; }
@@ -75,6 +79,8 @@ class Plan {
   double rays_ = 0;  ///< number of rays in each search
   double predicted_seconds_ = 0;
   double predicted_seconds_again_ = 0;
+  double prepare_seconds_ = 0;
+  double peak_bytes_ = 0;
   double predicted_error_ = 0;
   double planning_seconds_ = 0;
   Rigor rigor_ = Rigor::estimate;

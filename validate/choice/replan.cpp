@@ -21,6 +21,9 @@ struct Replanned {
   const Prediction* candidate = nullptr;
   double seconds = std::numeric_limits<double>::infinity();
   int threads = 1;
+  double again = 0;    ///< seconds of a repeated search
+  double prepare = 0;  ///< of seconds
+  double bytes_touched = 0;
 
   [[nodiscard]] double judged_seconds() const { return candidate == nullptr ? seconds : seconds * candidate->doubt; }
 };
@@ -58,20 +61,37 @@ Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays) {
   const double least_ratio = least_time_ratio(disc_radius / basis.radius, count / basis.rays);
   std::optional<Workload> now;
   const auto by_closed_form = [&](const Prediction& one) -> Replanned {
-    if (!basis.workload) return {&one, one.seconds() * count / basis.rays, one.threads};
+    const double ratio = count / basis.rays;
+    if (!basis.workload)
+      return {&one,
+              one.seconds() * ratio,
+              one.threads,
+              one.time.again() * ratio,
+              (one.time.order + one.time.build) * ratio,
+              one.counts.bytes_touched};
     if (!now) {
       now = with_disc_radius(*basis.workload, disc_radius);
       now->rays = count;
     }
     const Prediction found = model::assess(*now, one.candidate, basis.options.costs, most_threads);
-    return {&one, found.seconds(), found.threads};
+    return {&one,
+            found.seconds(),
+            found.threads,
+            found.time.again(),
+            found.time.order + found.time.build,
+            found.counts.bytes_touched};
   };
   const auto by_pilot = [&](const Prediction& one) -> Replanned {
     Counts<double> counts =
         with_bytes_touched(one.counts_at(disc_radius / basis.radius, count), one.candidate, basis.options.costs.engine);
     if (basis.order) counts.sorted = 0;
     const auto fastest = fastest_price(counts, basis.options.costs, one.candidate.technique, most_threads);
-    return {&one, fastest.time.total(), fastest.threads};
+    return {&one,
+            fastest.time.total(),
+            fastest.threads,
+            fastest.time.again(),
+            fastest.time.order + fastest.time.build,
+            counts.bytes_touched};
   };
   Replanned best;
   for (const Prediction& one : basis.candidates) {
@@ -92,6 +112,9 @@ Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays) {
       });
   made.threads_ = best.threads;
   made.predicted_seconds_ = best.seconds;
+  made.predicted_seconds_again_ = best.again;
+  made.prepare_seconds_ = best.prepare;
+  made.peak_bytes_ = bytes_in_memory(count, basis.problem.discs().size(), best.bytes_touched);
   made.predicted_error_ =
       best.candidate->seconds() > 0 ? best.candidate->error * best.seconds / best.candidate->seconds() : 0;
   made.rays_ = count;

@@ -105,6 +105,11 @@ TEST_SUITE("identity") {
     CHECK(same.candidate() == first.candidate());
     CHECK(same.predicted_seconds() == Approx(first.predicted_seconds()));
     CHECK(same.predicted_error() == Approx(first.predicted_error()));
+    CHECK(same.predicted_seconds_again() == Approx(first.predicted_seconds_again()));
+    CHECK(same.prepare_seconds() == Approx(first.prepare_seconds()));
+    CHECK(same.peak_bytes() == Approx(first.peak_bytes()));
+    CHECK(first.prepare_seconds() < first.predicted_seconds());
+    CHECK(first.peak_bytes() > 64.0 * 1500);
   }
 
   TEST_CASE("many threads may execute a replan that is not built") {

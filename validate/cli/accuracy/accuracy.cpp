@@ -370,6 +370,12 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
   answer.in_time =
       validate::plan_accuracy(answer.pilot, {validate::AccuracyTarget::Kind::seconds, 2 * best.seconds}, most_rays)
           .answer;
+  answer.whole = {.triangles = static_cast<double>(scene.mesh.triangles.size()),
+                  .discs = static_cast<double>(scene.samples.size()),
+                  .rays = best.rays,
+                  .rays_in_memory = best.rays,
+                  .traced = !gathers(best)};
+  validate::add_file(options.scene, answer.whole);
   Result result;
   result.inputs = {
       {"scene", options.scene},

@@ -7,6 +7,7 @@
 #include "detp/validate/accuracy/reference_file.hpp"
 #include "detp/validate/axes/axes.hpp"
 #include "detp/validate/cli/command.hpp"
+#include "detp/validate/whole/whole.hpp"
 
 namespace detp::cli {
 
@@ -28,6 +29,7 @@ struct AccuracyAnswer {
   std::uint64_t normals_made = 0;
   std::uint64_t coincident = 0;
   std::vector<std::string> warnings = {};  ///< that were noted
+  validate::WholeInputs whole = {};        ///< of `detp run` with the answer
 };
 
 /// "detp run @cornell --rays 3.4e5 --estimator disc --disc-radius 0.021".

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "detp/validate/cli/report/whole_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/shell_word.hpp"
 #include "detp/validate/cli/text/table.hpp"
@@ -128,6 +129,9 @@ Json to_json(const AccuracyAnswer& answer) {
   }
   Json ties = Json::array();
   for (const sim::Estimator one : answer.plan.ties) ties.push_back(name(one));
+  validate::WholeSeconds whole = validate::whole_seconds(answer.whole, {}, 0, 0);
+  whole.trace = best.trace_seconds;
+  whole.search = best.seconds - best.trace_seconds;
   return {{"answer", chosen},
           {"rivals", rivals},
           {"ties", ties},
@@ -136,6 +140,8 @@ Json to_json(const AccuracyAnswer& answer) {
           {"reference", reference_json(answer)},
           {"reruns", reruns_json(answer)},
           {"planning_seconds", answer.seconds},
+          {"whole", whole_json(whole)},
+          {"peak_bytes", validate::peak_bytes(answer.whole, 0)},
           {"pilot_rays", answer.pilot.rays},
           {"light", light_json(answer.pilot.light)},
           {"geometry", geometry_json(answer.polygons, answer.normals_made, answer.coincident)},

@@ -226,6 +226,7 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
     result.stopped = decide(answer, question, costs);
     result.inputs = numbers_json(answer.workload);
     answer.title = describe_numbers(answer.workload);
+    answer.whole = {.discs = answer.workload.samples, .rays = answer.workload.rays};
     if (options.ranks.ranks)
       answer.ranks = choose_ranks(options.ranks, answer.workload, 1, false, 0, answer.choice.best(),
                                   search_error(answer), making_time(answer.workload, request.seed, stop),
@@ -268,6 +269,7 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
     }
     result.inputs = to_json(job, request);
     answer.title = describe(job);
+    answer.whole = validate::whole_inputs(request, job, job.given.rays);
     if (options.ranks.ranks && !result.stopped) {
       const bool photon_paths = job.field == sim::Field::photons;
       const double photons =

@@ -42,7 +42,7 @@ const char* role_of(const ChooseAnswer& answer, const ChooseRow& row, bool first
 }  // namespace
 
 std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
-  const Columns of_all{"tried", "regret", "rigor", "unit_costs", "choosing_seconds"};
+  const Columns of_all{"tried", "regret", "rigor", "unit_costs", "choosing_seconds", "whole_seconds", "peak_bytes"};
   Table table(workload_columns() + effect_columns() + Columns{"warnings", "role"} + candidate_columns() +
               Columns{"engine", "threads"} + count_columns("predicted_") +
               Columns{"predicted_seconds", "predicted_seconds_again", "predicted_seconds_error", "could_still_win",
@@ -59,6 +59,7 @@ std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
   for (const std::string& name : of_all)
     if (json.contains(name)) shared[name] = json[name];
   shared["choosing_seconds"] = answer.choosing_seconds;
+  shared["whole_seconds"] = json["whole"]["total"];
   const auto add = [&](const char* role, const Json& cells) {
     Json row = shared;
     row["role"] = role;

@@ -98,6 +98,8 @@ Json to_json(const ChooseAnswer& answer) {
               {"evidence_shown", answer.shown_evidence_seconds},
               {"pilot", answer.by_sample() ? answer.choice.choosing_seconds : 0}}},
             {"choosing_share", answer.choosing_seconds / answer.choice.best().time.total()},
+            {"whole", whole_json(whole_of(answer).seconds)},
+            {"peak_bytes", *whole_of(answer).peak_bytes},
             {"warnings", answer.warnings}};
   json.update(answer.ledgers);
   if (answer.ranks) json["ranks"] = to_json(*answer.ranks);

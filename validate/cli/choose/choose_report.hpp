@@ -10,6 +10,7 @@
 #include "detp/validate/choice/analysis.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/choice/tips.hpp"
+#include "detp/validate/cli/report/whole_report.hpp"
 #include "detp/validate/cli/text/result.hpp"
 #include "detp/validate/cli/text/screen.hpp"
 
@@ -31,12 +32,21 @@ struct ChooseAnswer {
   double shown_evidence_seconds = 0;  ///< the same where only the reader needs it, beside a pilot
   double choosing_seconds = 0;        ///< with evidence and pilot
   std::vector<std::string> warnings;
+  validate::WholeInputs whole = {};  ///< of `detp run`
   Json ledgers = Json::object();     ///< of light and geometry
   std::optional<RanksAnswer> ranks;  ///< of --ranks
 
   /// Counted in a sample of rays, not by closed forms alone.
   [[nodiscard]] bool by_sample() const { return choice.rigor != Rigor::estimate; }
 };
+
+/// Of `detp run` with the predicted choice.
+[[nodiscard]] inline Whole whole_of(const ChooseAnswer& answer) {
+  const Prediction& best = answer.choice.best();
+  const double pilot = answer.by_sample() ? static_cast<double>(answer.choice.sampled_rays) : 0;
+  return {validate::whole_seconds(answer.whole, best.time, pilot, best.threads),
+          validate::peak_bytes(answer.whole, best.counts.bytes_touched)};
+}
 
 [[nodiscard]] Json to_json(const ChooseAnswer& answer);
 

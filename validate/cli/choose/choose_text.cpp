@@ -119,19 +119,31 @@ std::string hint(const Screen& screen) {
                 "--verbose shows all candidates, what was ruled out, the paper's rule, evidence of effects, symbols");
 }
 
-std::string with_tips(const ChooseAnswer& answer, const Screen& screen, std::size_t most, bool spaced = true) {
+/// What the short text has if it fits.
+struct Detail {
+  std::size_t tips = 0;  ///< at most
+  bool whole = true;
+  bool spaced = true;
+};
+
+std::string with_detail(const ChooseAnswer& answer, const Screen& screen, const Detail& detail) {
   return paragraph(answer.title, screen) + paragraph(short_effects_line(answer.effects), screen) +
-         (spaced ? "\n" : "") + choice_lines(answer, screen) + paragraph(rival_line(answer), screen) +
-         paragraph(short_tips_line(answer, most), screen) + paragraph(planning_line(answer), screen) +
-         paragraph(costs_line(answer, false), screen);
+         (detail.spaced ? "\n" : "") + choice_lines(answer, screen) + paragraph(rival_line(answer), screen) +
+         paragraph(short_tips_line(answer, detail.tips), screen) +
+         (detail.whole ? paragraph(whole_line(whole_of(answer), {}), screen) : "") +
+         paragraph(planning_line(answer), screen) + paragraph(costs_line(answer, false), screen);
 }
 
-/// With as many tips as fit, and the hint and the empty line if they fit.
+/// With as many tips as fit, the whole wait, the hint and the empty line if they fit.
 std::string short_text(const ChooseAnswer& answer, const Screen& screen) {
-  const auto lines = [&](std::size_t most) { return lines_of(with_tips(answer, {.width = usual_width}, most)); };
-  std::size_t most = answer.tips.tips.size() + 1;
-  while (most > 1 && lines(most) > most_lines) --most;
-  return with_tips(answer, screen, most, lines(most) <= most_lines) + (lines(most) < most_lines ? hint(screen) : "");
+  const auto lines = [&](const Detail& detail) {
+    return lines_of(with_detail(answer, {.width = usual_width}, detail));
+  };
+  Detail detail{answer.tips.tips.size() + 1};
+  while (detail.tips > 1 && lines(detail) > most_lines) --detail.tips;
+  detail.whole = lines(detail) <= most_lines + 1;
+  detail.spaced = lines(detail) <= most_lines;
+  return with_detail(answer, screen, detail) + (lines(detail) < most_lines ? hint(screen) : "");
 }
 
 std::string analysis_text(const ChooseAnswer& answer, const Screen& screen) {
@@ -155,6 +167,7 @@ std::string verbose_text(const ChooseAnswer& answer, const Screen& screen) {
   add(fmt::format("paper     its rule takes {}: predicted {:.3g} s, {}", title(answer.paper.candidate),
                   answer.paper.time.total(),
                   as_long(answer.paper.time.total() / answer.choice.best().time.total(), "the predicted choice")));
+  add(whole_line(whole_of(answer), {}));
   add(planning_line(answer));
   add(fmt::format("rigor     {}", name(answer.rigor)));
   add(costs_line(answer, true));

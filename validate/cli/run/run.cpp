@@ -276,6 +276,7 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
                    .engine = options.candidate.engine,
                    .repeat = options.repeat,
                    .standard_error = options.standard_error,
+                   .whole = validate::whole_inputs(options.workload.request(common), job, job.given.rays),
                    .random_rays = !options.workload.request(common).ray_file};
   if (until) {
     const double most_rays = options.workload.request(common).rays.value_or(most_rays_by_default);
@@ -403,7 +404,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
       if (!options.workload.request(common).ray_file)
         inputs["rays"] = options.workload.request(common).rays.value_or(most_rays_by_default);
     }
-    AnswerRow row = run_row(inputs, job, found);
+    AnswerRow row = run_row(inputs, job, found, expected == 1);
     predicted = predicted || row.answer.contains("predicted_seconds");
     return row;
   };

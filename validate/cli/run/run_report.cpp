@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include "detp/model/rank/predict.hpp"
@@ -13,8 +14,10 @@
 #include "detp/sim/technique/ranked.hpp"
 #include "detp/validate/calibration/sum_costs.hpp"
 #include "detp/validate/cli/options/sphere_stops.hpp"
+#include "detp/validate/cli/process_clock.hpp"
 #include "detp/validate/cli/report/columns.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
+#include "detp/validate/cli/report/whole_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/text_table.hpp"
 #include "detp/validate/stopping/job_batches.hpp"
@@ -56,6 +59,17 @@ std::optional<Counts<double>> prediction(const validate::Job& job, const RunAnsw
   try {
     return model::predict(job.workload(), answer.candidate, answer.engine);
   } catch (const std::invalid_argument&) {  // no closed form for these parameters: another order, tree or traversal
+    return {};
+  }
+}
+
+/// The same without measuring anything: by the workload as given.
+std::optional<Counts<double>> rough_prediction(const validate::Job& job, const RunAnswer& answer) {
+  if (is_predicted(answer)) return answer.choice->best().counts;
+  if (answer.estimator != sim::Estimator::disc || !model::has_closed_form(answer.candidate.technique)) return {};
+  try {
+    return model::predict(job.given, answer.candidate, answer.engine);
+  } catch (const std::invalid_argument&) {  // no closed form for these parameters
     return {};
   }
 }
@@ -141,6 +155,32 @@ std::string hits_text(const validate::Job& job, const RunAnswer& answer) {
   return text;
 }
 
+/// Of the whole command; nothing of other estimators, and of runs whose number of rays was not known.
+std::optional<Whole> predicted_whole(const RunAnswer& answer, const std::optional<Counts<double>>& counts) {
+  if (!counts || answer.until) return std::nullopt;
+  const int threads = sim::useful_threads(answer.threads);
+  const CostBreakdown search = price(*counts, answer.costs, answer.candidate.technique, threads);
+  const double pilot = answer.choice ? static_cast<double>(answer.choice->sampled_rays) : 0;
+  Whole whole{validate::whole_seconds(answer.whole, search, pilot, answer.threads), std::nullopt};
+  whole.seconds.search *= 1 + answer.repeat;
+  whole.peak_bytes = validate::peak_bytes(answer.whole, counts->bytes_touched);
+  return whole;
+}
+
+/// Until now.
+Whole measured_whole(const validate::Job& job, const RunAnswer& answer) {
+  const sim::Phases& phases = answer.run.outcome.seconds;
+  validate::WholeSeconds seconds{
+      .read = job.read_seconds,
+      .trace = job.trace_seconds + answer.run.trace_seconds,
+      .prepare = phases.order + phases.build + (answer.choice ? answer.choice->choosing_seconds : 0),
+      .search = answer.run.prepare_seconds + phases.search};
+  if (answer.repeat > 0) seconds.search += std::accumulate(answer.timing.all.begin(), answer.timing.all.end(), 0.0);
+  if (answer.until) seconds.search = std::max(0.0, answer.until->seconds - seconds.trace);
+  seconds.rest = std::max(0.0, seconds_since_start() - seconds.total());
+  return {seconds, validate::measured_peak_bytes()};
+}
+
 /// Nothing if a run took the job's rays.
 std::optional<RaysTaken> taken_by(const validate::Job& job, const RunAnswer& answer) {
   if (!answer.until) return answer.taken;
@@ -219,6 +259,9 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
     json["predicted_seconds"] = (search.total() + errors) / ranks;
     json["predicted_seconds_again"] = (search.again() + errors) / ranks;
   }
+  const auto whole = predicted_whole(answer, prediction(job, answer));
+  json["whole"] = whole ? whole_json(whole->seconds) : Json();
+  json["peak_bytes"] = whole ? Json(*whole->peak_bytes) : Json();
   json.update({{"seconds", seconds_json(answer.timing, answer.repeat)},
                {"read_seconds", job.read_seconds},
                {"trace_seconds", job.trace_seconds + answer.run.trace_seconds},
@@ -262,6 +305,10 @@ Json run_cells(const Json& inputs, const RunAnswer& answer, const Json& json) {
   if (json.contains("predicted")) {
     const Json predicted = count_cells(json["predicted"]);
     for (const auto& [name, value] : predicted.items()) cells["predicted_" + name] = value;
+  }
+  for (const std::string which : {"whole", "whole_measured"}) {
+    cells[which + "_seconds"] = json[which].is_null() ? Json() : json[which]["total"];
+    cells.erase(which);
   }
   const Json& seconds = json["seconds"];
   cells["seconds"] = seconds["total"];
@@ -325,8 +372,11 @@ std::string counts_table(const validate::Job& job, const RunAnswer& answer, cons
 
 }  // namespace
 
-AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer) {
+AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer, bool alone) {
   Json json = answer_json(job, answer);
+  const Whole measured = measured_whole(job, answer);
+  json["whole_measured"] = alone ? whole_json(measured.seconds) : Json();
+  json["peak_bytes_measured"] = alone && measured.peak_bytes ? Json(*measured.peak_bytes) : Json();
   Json cells = run_cells(inputs, answer, json);
   return {std::move(inputs), std::move(json), {std::move(cells)}};
 }
@@ -359,6 +409,10 @@ Columns run_columns() {
                  "read_seconds",
                  "trace_seconds",
                  "rays_in_memory",
+                 "whole_seconds",
+                 "whole_measured_seconds",
+                 "peak_bytes",
+                 "peak_bytes_measured",
                  "stopped",
                  "hits_so_far",
                  "hits_estimate",
@@ -425,11 +479,10 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
   if (verbose && !gathers(answer)) add(effects_line(job.observed().effects));
   add("hits      " + hits_text(job, answer));
   for (const std::string& one : answer_warnings(job, answer)) add("warning   " + one);
-  add(
-      fmt::format("seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}{}; not included: "
-                  "reading {:.3g}, making rays {:.3g}",
-                  timing.total(), timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
-                  repeats_text(timing), job.read_seconds, job.trace_seconds + answer.run.trace_seconds));
+  add(fmt::format("seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}{}", timing.total(),
+                  timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
+                  repeats_text(timing)));
+  add(whole_line(predicted_whole(answer, rough_prediction(job, answer)), measured_whole(job, answer)));
   if (const auto& seconds = answer.run.rank_seconds; !seconds.empty())
     add(fmt::format(
         "ranks     {} processes share the {}, {:.3g} to {:.3g} s each; the slowest took {:.2g} % more than the mean",

@@ -8,6 +8,7 @@
 #include "detp/validate/cli/report/answer_rows.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/stopping/run_until.hpp"
+#include "detp/validate/whole/whole.hpp"
 #include "timed_run.hpp"
 
 namespace detp::cli {
@@ -56,6 +57,7 @@ struct RunAnswer {
   bool standard_error = false;  ///< requested
   std::optional<UntilAnswer> until = {};
   std::optional<RaysTaken> taken = {};  ///< of a stream of photon paths: those that were searched
+  validate::WholeInputs whole = {};     ///< of the command, if the rays are known before
   bool random_rays = false;  ///< true for rays of a random field: the first rays are representative of all rays
 };
 
@@ -73,7 +75,8 @@ struct RunAnswer {
 /// Hits, counts and seconds, and the predictions of the candidate's closed form if it has one. A stopped run has no
 /// `hits` and no irradiance. It has `hits_so_far`, the hits of the finished rays or discs, and if random rays were
 /// finished, `hits_estimate` for all rays.
-[[nodiscard]] AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer);
+/// `alone`: the command has no other row, so that its whole time and memory are those of this one.
+[[nodiscard]] AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer, bool alone);
 
 [[nodiscard]] Columns run_columns();
 [[nodiscard]] TextColumns run_text_columns(const Screen& screen);

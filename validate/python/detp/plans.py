@@ -72,6 +72,11 @@ class Plan:
         self.threads = int(facts.threads)  #: of a search
         self.predicted_seconds = float(facts.predicted_seconds)  #: of a search, building the index included
         self.predicted_seconds_again = float(facts.predicted_seconds_again)  #: of a repeated one, in the same memory
+        #: the wait for one search of rays in memory, predicted, by part (`detp run` also reads and traces)
+        self.whole: Dict[str, float] = {"read": 0.0, "trace": 0.0, "prepare": float(facts.prepare_seconds),
+                                        "search": self.predicted_seconds - float(facts.prepare_seconds),
+                                        "total": self.predicted_seconds}
+        self.peak_bytes = float(facts.peak_bytes)  #: predicted memory of rays, discs and a first search of them
         self.predicted_error = float(facts.predicted_error)  #: its standard error; 0: not known
         self.planning_seconds = float(facts.planning_seconds)
         self._local = threading.local()
