@@ -55,7 +55,8 @@ TEST_SUITE("end to end") {
         CHECK(json["peak_bytes_measured"] > 1e7);
         const double ratio = whole["total"].get<double>() / measured["total"].get<double>();
         const double memory = json["peak_bytes"].get<double>() / json["peak_bytes_measured"].get<double>();
-        return sanitized || (ratio > 0.25 && ratio < 4 && memory > 0.7 && memory < 1.4);
+        // other programs may take most of the processor meanwhile
+        return sanitized || (ratio > 0.1 && ratio < 4 && memory > 0.7 && memory < 1.4);
       }));
       const Json chosen = result_of("choose " + line);
       CHECK(chosen["whole"]["total"] > chosen["choice"]["predicted_seconds"]);
