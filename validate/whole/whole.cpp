@@ -81,7 +81,7 @@ double peak_bytes(const WholeInputs& inputs, double bytes_touched) {
   else if (inputs.traced)
     rays = piece * inputs.rays + std::max(searched, traced_beside * std::min(inputs.rays, most_beside));
   else
-    rays = (inputs.from_file ? piece : ray) * inputs.rays_in_memory + searched;
+    rays = (inputs.from_file ? piece : ray) * inputs.rays_in_memory + 0.5 * searched;  // lines have no ends
   return program + triangle * inputs.triangles + disc * inputs.discs + rays + bytes_touched;
 }
 
