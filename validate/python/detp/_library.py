@@ -6,7 +6,7 @@ import os
 import threading
 from pathlib import Path
 from queue import SimpleQueue
-from typing import Any, Callable, Optional
+from typing import Any, Callable, List, Optional
 
 from ._declarations import ffi
 
@@ -106,14 +106,22 @@ class LongCall:
         _check(status, error)
 
     def _on_worker(self, function: Callable[[], int]) -> int:
-        answers: SimpleQueue[int] = SimpleQueue()
-        _worker.give(lambda: answers.put(function()))
-        while True:
+        answers: List[int] = []
+        done = threading.Event()
+
+        def job() -> None:
+            answers.append(self.guarded(-1, function))
+            done.set()
+
+        _worker.give(job)
+        # Until the library has let go of the arrays. A signal can take the message that ends a wait, so waits have a limit.
+        while not answers:
             try:
-                return answers.get()
-            except BaseException as interrupted:  # KeyboardInterrupt: waits until the library has let go of the arrays
+                done.wait(1)
+            except BaseException as interrupted:  # KeyboardInterrupt
                 self._stop = True
                 self._raised = interrupted
+        return answers[0]
 
 
 class _Worker:
