@@ -15,7 +15,8 @@ namespace {
 Json without_times(Json json) {
   if (json.is_object()) {
     for (auto it = json.begin(); it != json.end();)
-      it = it.key().find("seconds") != std::string::npos ? json.erase(it) : std::next(it);
+      it = it.key().find("seconds") != std::string::npos || it.key().ends_with("_measured") ? json.erase(it)
+                                                                                            : std::next(it);
   }
   if (json.is_structured())
     for (auto& part : json) part = without_times(part);
