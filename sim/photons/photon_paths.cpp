@@ -13,7 +13,7 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::uint64_t block_size = 256;              // number of photons that one thread traces at a time
+constexpr std::uint64_t block_size = 256;               // number of photons that one thread traces at a time
 constexpr std::uint64_t photons_in_round = 1ULL << 17;  // photons, whose pieces are in memory beside the paths
 
 /// Of a block, photons beyond those that have `most` pieces alone are not traced.

@@ -140,8 +140,7 @@ class Probe {
     PhaseRatios& ratios = of(one.engine, one.candidate.technique);
     const CheckSeconds& checks = one.workload->checks;
     ratios.preparing.add(usual(one.preparing) + checks.discs, predicted.order + predicted.build);
-    ratios.search.add(usual(one.search) + checks.rays,
-                      predicted.total() - predicted.order - predicted.build);
+    ratios.search.add(usual(one.search) + checks.rays, predicted.total() - predicted.order - predicted.build);
   }
 
   void set(CostTable& costs, Engine engine) {
