@@ -31,7 +31,7 @@ LightLedger ledger_of(const PhotonTracer& tracer, std::uint64_t first, const Pho
   return light;
 }
 
-/// With a little room for rounding.
+/// All rays start in this box: at lights, and on surfaces, found in single precision.
 Box origins_of(const Scene& scene) {
   Box box = scene.box;
   for (const glm::dvec3& position : scene.mesh.positions) box.include(position);
@@ -40,7 +40,7 @@ Box origins_of(const Scene& scene) {
     box.include(starts.low);
     box.include(starts.high);
   }
-  constexpr double room = 1e-6;
+  constexpr double room = 1e-4;
   const double more = room * box.longest_side();
   return {box.low - more, box.high + more};
 }
@@ -105,11 +105,6 @@ void PhotonSource::know(std::uint64_t rays, Ranks& ranks, const std::stop_token&
   }
 }
 
-void PhotonSource::know_all(const std::stop_token& stop) const {
-  OneRank one;
-  know(wanted_, one, stop);
-}
-
 void PhotonSource::count_rays(std::uint64_t groups, Ranks& ranks, const std::stop_token& stop) const {
   struct Group {
     std::uint64_t rays = 0;
@@ -120,8 +115,7 @@ void PhotonSource::count_rays(std::uint64_t groups, Ranks& ranks, const std::sto
   if (groups <= known) return;
   // If few are known, each rank traces, and keeps, the groups that it is likely to search: its part of all.
   constexpr std::uint64_t few = 16;
-  const bool again = ranks.count() > 1 && few * known * static_cast<std::uint64_t>(ranks.count()) <= groups;
-  const std::uint64_t skipped = again ? known : 0;
+  const std::uint64_t skipped = few * known * static_cast<std::uint64_t>(ranks.count()) <= groups ? known : 0;
   const std::uint64_t start = known - skipped;
   std::vector<Group> found(groups - start);
   all.kept.resize(groups);
@@ -204,7 +198,8 @@ std::uint64_t PhotonSource::block_end(std::uint64_t first, std::uint64_t most, c
 }
 
 std::uint64_t PhotonSource::first_ray_of(std::uint64_t photon) const {
-  know_all();
+  OneRank one;
+  know(wanted_, one, {});
   const std::vector<std::uint64_t>& starts = known_->starts;
   const std::uint64_t group = photon / group_size;
   if (photon >= known_->emitted || group + 1 >= starts.size()) return known_->count;

@@ -75,7 +75,6 @@ class PhotonSource final : public RaySource {
   std::unique_ptr<const PhotonPieces> keep(const PhotonPieces& pieces) const;
   /// Traces until so many rays are known, or all.
   void know(std::uint64_t rays, Ranks& ranks, const std::stop_token& stop) const;
-  void know_all(const std::stop_token& stop = {}) const;
   void count_rays(std::uint64_t groups, Ranks& ranks, const std::stop_token& stop) const;
   /// Number of the group that has the ray.
   [[nodiscard]] std::uint64_t group_of(std::uint64_t ray) const;

@@ -103,6 +103,7 @@ void StreamedSearch::search(std::uint64_t first, std::uint64_t last, Totals* tot
       streamed_.read_seconds += watch.lap();
       scratch_.begin();
       search.add({block, photons, {}});
+      if (run_.stop.stop_possible()) search.add_batch();
       piece = std::min(2 * piece, streamed_.block);
     }
   } catch (const Stopped&) {  // while making rays

@@ -65,16 +65,14 @@ void SuccessiveSearch::add(const PathRays& rays) {
   done_ += done;
   sum_.progress.done += done;
   next_ += rays.rays.size();
-  if (!part_.stopped && options_.stop.stop_possible()) add_batch();
 }
 
-/// The discs' irradiance by what the last batch and the rays since have brought. So rarely that it takes little of the time.
 void SuccessiveSearch::add_batch() {
   constexpr double least_growth = 0.2;
   const std::uint64_t done = next_ - first_;
   const std::uint64_t rays = done - sum_.irradiance_batches.rays;
   const std::span<const Disc> discs = problem_.discs();
-  if (options_.totals != nullptr || rays < discs.size() / 4 ||
+  if (sum_.stopped || options_.totals != nullptr || rays < discs.size() / 4 ||
       static_cast<double>(rays) < least_growth * static_cast<double>(done))
     return;
   constexpr std::size_t at_once = std::size_t{1} << 14;

@@ -22,6 +22,10 @@ class SuccessiveSearch {
   /// nothing may be added then.
   void add(const PathRays& rays);
 
+  /// To be called after pieces: adds what they bring to the discs' irradiance to sum.irradiance_batches, so rarely that it takes little of the
+  /// time. Does nothing if options.totals are the caller's.
+  void add_batch();
+
   /// Number of the next ray.
   [[nodiscard]] std::uint64_t next() const { return next_; }
   /// Rays that are searched; fewer than were added if a stop ended the last piece.
@@ -37,7 +41,6 @@ class SuccessiveSearch {
  private:
   void require_pairs(std::uint64_t last) const;
   void add_pairs();
-  void add_batch();
 
   const Index& index_;
   Problem problem_;

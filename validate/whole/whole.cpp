@@ -38,7 +38,7 @@ WholeInputs whole_inputs(const JobRequest& request, const Job& job, double rays)
                      .from_file = job.rays_from_file};
   for (const auto* path : {&request.scene, &request.disc_file, &request.ray_file}) add_file(*path, inputs);
   const double block = static_cast<double>(sim::default_block(job.disc_count()));
-  if (!job.rays_from_file && rays > block)
+  if (job.stream || (!job.rays_from_file && rays > block))
     inputs.rays_in_memory = static_cast<double>(sim::block_in_memory(job.disc_count()));
   return inputs;
 }

@@ -42,7 +42,7 @@ void add_file(const std::optional<std::string>& path, WholeInputs& inputs);
                                          int threads);
 
 /// Bytes that are in memory at the same time at most: of the program, mesh and what traces photons, discs, rays, and of the search
-/// (Counts::bytes_touched). Six meshes and four built-in scenes, 10³ to 4·10⁶ pieces of paths, box trees, AMD EPYC (Zen 5), with the allocator that
+/// (Counts::bytes_touched). Eight meshes and seven built-in scenes, 10³ to 4·10⁶ pieces of paths, box trees, AMD EPYC (Zen 5), with the allocator that
 /// the command is linked with.
 [[nodiscard]] double peak_bytes(const WholeInputs& inputs, double bytes_touched);
 

@@ -107,6 +107,31 @@ TEST_SUITE("limit") {
   }
 }
 
+TEST_SUITE("limit") {
+  TEST_CASE("farthest_from holds for every kind of light, inside and outside of the scene") {
+    Scene scene = open_scene({.name = "@cornell", .samples = {}});
+    const glm::dvec3 size = scene.box.size();
+    const glm::dvec3 above = scene.box.high + size;
+    const std::vector<Light> lights{{PointLight{above}},
+                                    {SpotLight{above, scene.box.centre() - above, 0.3}},
+                                    {AreaLight{above, {-size.x, 0, 0}, {0, 0, -size.z}}},
+                                    {DirectionalLight{{1, -2, 0.5}}},
+                                    {EnvironmentLight{}}};
+    for (const Light& light : lights) {
+      CAPTURE(name(kind_of(light)));
+      scene.lights = {light};
+      const TracedPaths paths = photon_paths(scene, 3000, 3);
+      const PhotonSource source(scene, 3000, 3);
+      for (const glm::dvec3& point : {scene.box.centre(), scene.box.low, scene.box.high + 30.0}) {
+        double farthest = 0;
+        for (const Ray& ray : paths.rays) farthest = std::max(farthest, glm::distance(ray.origin, point));
+        CHECK(source.farthest_from(point) >= farthest);
+        CHECK(source.farthest_from(point) < 3 * farthest);
+      }
+    }
+  }
+}
+
 TEST_SUITE("bad input") {
   TEST_CASE("a light that meets no surface is refused instead of traced for ever") {
     Scene scene = open_scene({.name = "@cornell", .samples = {}});

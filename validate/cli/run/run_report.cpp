@@ -4,23 +4,20 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 
-#include "detp/model/rank/predict.hpp"
-#include "detp/model/rank/registry.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/photons/light_notes.hpp"
 #include "detp/sim/technique/ranked.hpp"
 #include "detp/validate/calibration/sum_costs.hpp"
 #include "detp/validate/cli/options/sphere_stops.hpp"
-#include "detp/validate/cli/process_clock.hpp"
 #include "detp/validate/cli/report/columns.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
 #include "detp/validate/cli/report/whole_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/text_table.hpp"
 #include "detp/validate/stopping/job_batches.hpp"
+#include "run_prediction.hpp"
 #include "run_until.hpp"
 
 namespace detp::cli {
@@ -44,34 +41,6 @@ double mean_irradiance(const RunAnswer& answer) {
 
 double hits_per_disc(const RunAnswer& answer) {
   return static_cast<double>(answer.run.outcome.total_hits) / static_cast<double>(disc_count(answer.run));
-}
-
-/// The counts of the choice come from a pilot. Of brute force it knows all but the hits.
-bool is_predicted(const RunAnswer& answer) {
-  return answer.estimator == sim::Estimator::disc && answer.choice && answer.choice->sampled_rays > 0;
-}
-
-/// The counts that a pilot predicted, or else the closed form; nothing if the candidate has none.
-std::optional<Counts<double>> prediction(const validate::Job& job, const RunAnswer& answer) {
-  if (is_predicted(answer)) return answer.choice->best().counts;
-  if (answer.estimator != sim::Estimator::disc) return {};
-  if (!model::has_closed_form(answer.candidate.technique)) return {};
-  try {
-    return model::predict(job.workload(), answer.candidate, answer.engine);
-  } catch (const std::invalid_argument&) {  // no closed form for these parameters: another order, tree or traversal
-    return {};
-  }
-}
-
-/// The same without measuring anything: by the workload as given.
-std::optional<Counts<double>> rough_prediction(const validate::Job& job, const RunAnswer& answer) {
-  if (is_predicted(answer)) return answer.choice->best().counts;
-  if (answer.estimator != sim::Estimator::disc || !model::has_closed_form(answer.candidate.technique)) return {};
-  try {
-    return model::predict(job.given, answer.candidate, answer.engine);
-  } catch (const std::invalid_argument&) {  // no closed form for these parameters
-    return {};
-  }
 }
 
 /// The counts, with the memory that belongs to them.
@@ -155,32 +124,6 @@ std::string hits_text(const validate::Job& job, const RunAnswer& answer) {
   return text;
 }
 
-/// Of the whole command; nothing of other estimators, and of runs whose number of rays was not known.
-std::optional<Whole> predicted_whole(const RunAnswer& answer, const std::optional<Counts<double>>& counts) {
-  if (!counts || answer.until) return std::nullopt;
-  const int threads = sim::useful_threads(answer.threads);
-  const CostBreakdown search = price(*counts, answer.costs, answer.candidate.technique, threads);
-  const double pilot = answer.choice ? static_cast<double>(answer.choice->sampled_rays) : 0;
-  Whole whole{validate::whole_seconds(answer.whole, search, pilot, answer.threads), std::nullopt};
-  whole.seconds.search *= 1 + answer.repeat;
-  whole.peak_bytes = validate::peak_bytes(answer.whole, counts->bytes_touched);
-  return whole;
-}
-
-/// Until now.
-Whole measured_whole(const validate::Job& job, const RunAnswer& answer) {
-  const sim::Phases& phases = answer.run.outcome.seconds;
-  validate::WholeSeconds seconds{
-      .read = job.read_seconds,
-      .trace = job.trace_seconds + answer.run.trace_seconds,
-      .prepare = phases.order + phases.build + (answer.choice ? answer.choice->choosing_seconds : 0),
-      .search = answer.run.prepare_seconds + phases.search};
-  if (answer.repeat > 0) seconds.search += std::accumulate(answer.timing.all.begin(), answer.timing.all.end(), 0.0);
-  if (answer.until) seconds.search = std::max(0.0, answer.until->seconds - seconds.trace);
-  seconds.rest = std::max(0.0, seconds_since_start() - seconds.total());
-  return {seconds, validate::measured_peak_bytes()};
-}
-
 /// Nothing if a run took the job's rays.
 std::optional<RaysTaken> taken_by(const validate::Job& job, const RunAnswer& answer) {
   if (!answer.until) return answer.taken;
@@ -248,7 +191,8 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
     json["predicted_error"] = to_json(answer.choice->best().counts_error);
     json["predicted_seconds_error"] = answer.choice->best().error;
   }
-  if (const auto predicted = prediction(job, answer); predicted && !answer.until) {
+  const auto predicted = prediction(job.workload(), answer);
+  if (predicted) {
     json["predicted"] = to_json(*predicted);
     json.update(unit_times(*predicted, answer.candidate.technique, "predicted_"));
     const CostBreakdown search =
@@ -259,7 +203,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
     json["predicted_seconds"] = (search.total() + errors) / ranks;
     json["predicted_seconds_again"] = (search.again() + errors) / ranks;
   }
-  const auto whole = predicted_whole(answer, prediction(job, answer));
+  const auto whole = predicted_whole(answer, predicted);
   json["whole"] = whole ? whole_json(whole->seconds) : Json();
   json["peak_bytes"] = whole ? Json(*whole->peak_bytes) : Json();
   json.update({{"seconds", seconds_json(answer.timing, answer.repeat)},
@@ -347,7 +291,7 @@ std::string_view meaning(std::string_view term) {
 }
 
 std::string counts_table(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
-  const auto predicted = answer.until ? std::nullopt : prediction(job, answer);
+  const auto predicted = prediction(job.workload(), answer);
   const Counts<std::uint64_t> counts = counted(answer);
   TextTable table({{.head = "count", .align = Align::left},
                    {.head = "counted"},
@@ -482,7 +426,7 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
   add(fmt::format("seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}{}", timing.total(),
                   timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
                   repeats_text(timing)));
-  add(whole_line(predicted_whole(answer, rough_prediction(job, answer)), measured_whole(job, answer)));
+  add(whole_line(predicted_whole(answer, prediction(job.given, answer)), measured_whole(job, answer)));
   if (const auto& seconds = answer.run.rank_seconds; !seconds.empty())
     add(fmt::format(
         "ranks     {} processes share the {}, {:.3g} to {:.3g} s each; the slowest took {:.2g} % more than the mean",

@@ -1,0 +1,53 @@
+#include "run_prediction.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "detp/model/rank/predict.hpp"
+#include "detp/model/rank/registry.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/validate/cli/process_clock.hpp"
+
+namespace detp::cli {
+
+bool is_predicted(const RunAnswer& answer) {
+  return answer.estimator == sim::Estimator::disc && answer.choice && answer.choice->sampled_rays > 0;
+}
+
+std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer) {
+  if (answer.until) return {};
+  if (is_predicted(answer)) return answer.choice->best().counts;
+  if (answer.estimator != sim::Estimator::disc || !model::has_closed_form(answer.candidate.technique)) return {};
+  try {
+    return model::predict(workload, answer.candidate, answer.engine);
+  } catch (const std::invalid_argument&) {  // no closed form for these parameters: another order, tree or traversal
+    return {};
+  }
+}
+
+std::optional<Whole> predicted_whole(const RunAnswer& answer, const std::optional<Counts<double>>& counts) {
+  if (!counts) return std::nullopt;
+  const int threads = sim::useful_threads(answer.threads);
+  const CostBreakdown search = price(*counts, answer.costs, answer.candidate.technique, threads);
+  const double pilot = answer.choice ? static_cast<double>(answer.choice->sampled_rays) : 0;
+  Whole whole{validate::whole_seconds(answer.whole, search, pilot, answer.threads),
+              validate::peak_bytes(answer.whole, counts->bytes_touched)};
+  whole.seconds.search *= 1 + answer.repeat;
+  return whole;
+}
+
+Whole measured_whole(const validate::Job& job, const RunAnswer& answer) {
+  const sim::Phases& phases = answer.run.outcome.seconds;
+  validate::WholeSeconds seconds{
+      .read = job.read_seconds,
+      .trace = job.trace_seconds + answer.run.trace_seconds,
+      .prepare = phases.order + phases.build + (answer.choice ? answer.choice->choosing_seconds : 0),
+      .search = answer.run.prepare_seconds + phases.search};
+  if (answer.repeat > 0) seconds.search += std::accumulate(answer.timing.all.begin(), answer.timing.all.end(), 0.0);
+  if (answer.until) seconds.search = std::max(0.0, answer.until->seconds - seconds.trace);
+  seconds.rest = std::max(0.0, seconds_since_start() - seconds.total());
+  return {seconds, validate::measured_peak_bytes()};
+}
+
+}  // namespace detp::cli
