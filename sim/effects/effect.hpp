@@ -30,6 +30,7 @@ struct SurfaceFacts {
   double area = 0;                          ///< of all triangles
   double edge_length = 0;                   ///< mean
   std::optional<Finding> self_shadow = {};  ///< self_shadow.hpp; only if photon paths are made
+  double piece_seconds = 0;                 ///< to trace a piece of a path on one thread; 0: not known
 };
 
 /// How much of rays and discs is looked at, at most.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/photons/photon_walk.hpp"
 #include "detp/sim/scene/resample.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -38,6 +39,9 @@ struct Landings {
   void piece(const Ray& ray, double) {
     check.after(1024);
     last = ray;
+    if (++in_part < pieces_of_part) return;
+    parts.push_back(watch.lap() / pieces_of_part);
+    in_part = 0;
   }
   void met(std::uint32_t triangle, double, bool) {
     const auto& [a, b, c] = mesh.triangles[triangle];
@@ -48,7 +52,20 @@ struct Landings {
     landings.push_back({glm::dot(corner - last.origin, normal) / cosine, cosine < 0 ? normal : -normal, cosine < 0});
   }
 
+  /// Of the middle part: the first finds cold caches, and others may have been interrupted.
+  [[nodiscard]] double piece_seconds() {
+    if (parts.empty()) return 0;
+    const auto middle = parts.begin() + std::ssize(parts) / 2;
+    std::nth_element(parts.begin(), middle, parts.end());
+    return *middle;
+  }
+
+  static constexpr int pieces_of_part = 512;
+
   Ray last = {};
+  Stopwatch watch = {};
+  int in_part = 0;
+  std::vector<double> parts = {};  ///< seconds for a piece
 };
 
 Landings traced(const PhotonWalk& walk, const Mesh& mesh, const std::stop_token& stop) {
@@ -109,12 +126,13 @@ double overshoot_for(std::span<const Disc> discs) {
   return overshoot_over_radius * largest;
 }
 
-Finding self_shadow(const Scene& scene, std::shared_ptr<const RayCaster> caster, bool front_facing,
-                    const std::stop_token& stop) {
+SelfShadow self_shadow(const Scene& scene, std::shared_ptr<const RayCaster> caster, bool front_facing,
+                       const std::stop_token& stop) {
   const std::vector<Disc> discs = discs_by_area(scene, stop);
   PhotonWalk walk(scene, seed, std::move(caster));
   walk.set_overshoot(overshoot_for(discs));
-  const Landings all = traced(walk, scene.mesh, stop);
+  Landings all = traced(walk, scene.mesh, stop);
+  const double piece_seconds = all.piece_seconds();
   double before = 0;
   double gained = 0;
   const std::vector<Power> power = hits_of(all, discs, front_facing, stop);
@@ -122,11 +140,11 @@ Finding self_shadow(const Scene& scene, std::shared_ptr<const RayCaster> caster,
     before += one.before;
     gained += one.gained;
   }
-  if (!(before > 0)) return {.value = tolerated};
+  if (!(before > 0)) return {{.value = tolerated}, piece_seconds};
   const double value = gained / before;
   double squares = 0;
   for (const Power& one : power) squares += std::pow(one.gained - value * one.before, 2);
-  return {.value = value + tolerated, .standard_error = std::sqrt(squares) / before};
+  return {{.value = value + tolerated, .standard_error = std::sqrt(squares) / before}, piece_seconds};
 }
 
 }  // namespace detp::sim

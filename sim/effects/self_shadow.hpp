@@ -13,6 +13,11 @@ namespace detp::sim {
 /// How far photon paths go on through the surfaces where they end if concave surfaces are on, over the discs' radius.
 inline constexpr double overshoot_over_radius = 2;
 
+struct SelfShadow {
+  Finding finding;
+  double piece_seconds = 0;  ///< to trace one on one thread, by the wall clock; 0: too few were traced
+};
+
 /// Whether photon paths should go on through the surfaces where they end, measured on 4096 pieces of paths.
 ///
 /// Paths that end at their first intersection miss those parts of discs that lie behind the surface: on concave surfaces
@@ -26,8 +31,8 @@ inline constexpr double overshoot_over_radius = 2;
 /// The discs of the pilot lie on the scene's triangles, spread by area, with d = 2 % of the scene's longest side. So the value is one of
 /// the scene: it depends neither on the samples and the radius that are asked for nor on a seed, and irradiance is continuous in d. Cost:
 /// tracing the pieces, and a tree of boxes over 8192 discs: 6 to 29 ms (README.md). Throws as photon_paths.
-[[nodiscard]] Finding self_shadow(const Scene& scene, std::shared_ptr<const RayCaster> caster, bool front_facing,
-                                  const std::stop_token& stop = {});
+[[nodiscard]] SelfShadow self_shadow(const Scene& scene, std::shared_ptr<const RayCaster> caster, bool front_facing,
+                                     const std::stop_token& stop = {});
 
 /// How far photon paths go on beyond surfaces if the effect is on.
 [[nodiscard]] double overshoot_for(std::span<const Disc> discs);

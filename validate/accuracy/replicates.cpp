@@ -31,7 +31,7 @@ ReplicateMaker::ReplicateMaker(sim::Scene& scene, bool front_facing, int threads
 
 bool ReplicateMaker::goes_on() {
   if (!goes_on_) {
-    const sim::Finding shadow = sim::self_shadow(scene_, caster_, front_facing_, stop_);
+    const sim::Finding shadow = sim::self_shadow(scene_, caster_, front_facing_, stop_).finding;
     goes_on_ = sim::EffectSelection{}.is_on(sim::concave_surfaces, shadow.value, shadow.standard_error);
   }
   return *goes_on_;

@@ -291,11 +291,12 @@ class JobMaker {
       scene_->overshoot = sim::unbounded;
       return *scene_;
     }
-    const sim::Finding shadow = sim::self_shadow(*scene_, caster_, request_.front_facing, stop_);
+    const auto [shadow, piece_seconds] = sim::self_shadow(*scene_, caster_, request_.front_facing, stop_);
     if (request_.effects.is_on(sim::concave_surfaces, shadow.value, shadow.standard_error))
       scene_->overshoot = job_.stored_discs ? sim::overshoot_over_radius * job_.stored_summary.radii.largest
                                             : sim::overshoot_for(job_.discs);
     job_.surface.self_shadow = shadow;
+    job_.surface.piece_seconds = piece_seconds;
     return *scene_;
   }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+#include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/input_file.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/accuracy/accuracy_costs.hpp"
@@ -19,6 +20,11 @@ double size_of(const std::string& path) {
   std::error_code unknown;
   const auto size = std::filesystem::file_size(path, unknown);
   return unknown ? 0 : static_cast<double>(size);
+}
+
+double seconds_of_pieces(const WholeInputs& inputs, const AccuracyCosts& costs, int threads) {
+  const double known = inputs.piece_seconds / sim::useful_threads(threads);
+  return inputs.rays * (known > 0 ? known : costs.trace().per_ray);
 }
 
 }  // namespace
@@ -35,7 +41,8 @@ WholeInputs whole_inputs(const JobRequest& request, const Job& job, double rays)
                      .rays = rays,
                      .rays_in_memory = rays,
                      .traced = job.field == sim::Field::photons && !job.rays_from_file && !job.without_rays,
-                     .from_file = job.rays_from_file};
+                     .from_file = job.rays_from_file,
+                     .piece_seconds = job.surface.piece_seconds};
   for (const auto* path : {&request.scene, &request.disc_file, &request.ray_file}) add_file(*path, inputs);
   const double block = static_cast<double>(sim::default_block(job.disc_count()));
   if (job.stream || (!job.rays_from_file && rays > block))
@@ -51,7 +58,7 @@ WholeSeconds whole_seconds(const WholeInputs& inputs, const CostBreakdown& searc
   constexpr double first_touch = 0.03;  // of a ray's memory, where lines are drawn
   double trace = 0;
   if (inputs.traced && !inputs.from_file)
-    trace = costs.trace().at(inputs.rays) + costs.on_one_thread(concave);
+    trace = costs.on_one_thread(concave) + costs.caster() + seconds_of_pieces(inputs, costs, threads);
   else if (!inputs.from_file)
     trace = costs.lines().at(inputs.rays) + costs.on_one_thread(first_touch * inputs.rays_in_memory);
   return {.read = costs.read(inputs.text_bytes, inputs.binary_bytes, inputs.discs),

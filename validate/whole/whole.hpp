@@ -29,6 +29,7 @@ struct WholeInputs {
   double rays_in_memory = 0;  ///< at a time
   bool traced = false;        ///< rays are photon paths, traced here
   bool from_file = false;
+  double piece_seconds = 0;  ///< to trace a piece on one thread, as sim::SurfaceFacts
 };
 
 /// Adds the size of a file by its format; nothing for a built-in scene.
@@ -37,7 +38,7 @@ void add_file(const std::optional<std::string>& path, WholeInputs& inputs);
 /// `rays`: of the search. The job may have fewer, as that of `choose`.
 [[nodiscard]] WholeInputs whole_inputs(const JobRequest& request, const Job& job, double rays);
 
-/// By AccuracyCosts. `search`: of a first search on `threads` threads, checking included; `pilot`: rays that choosing looks at, 0 without.
+/// By AccuracyCosts; tracing by `piece_seconds` if it is known. `search`: of a first search on `threads` threads, checking included; `pilot`: rays that choosing looks at, 0 without.
 [[nodiscard]] WholeSeconds whole_seconds(const WholeInputs& inputs, const CostBreakdown& search, double pilot,
                                          int threads);
 

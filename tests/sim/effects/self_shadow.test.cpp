@@ -24,7 +24,7 @@ Scene scene_of(Mesh mesh) {
 }
 
 Finding shadow_in(const Scene& scene, bool front_facing = true) {
-  return self_shadow(scene, caster_for(scene), front_facing);
+  return self_shadow(scene, caster_for(scene), front_facing).finding;
 }
 
 /// Floor and two walls that meet in a corner, seen from inside.

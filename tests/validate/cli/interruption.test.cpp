@@ -125,7 +125,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("a command stopped before it had any result says what it was doing, in one line") {
-    const Finished finished = detp("run @tree --rays 1e8 --threads 1 --time-limit 0.2");
+    const Finished finished = detp("run @tree --rays 1e8 --threads 1 --time-limit 0.02");
     CHECK(finished.code == 3);
     CHECK(finished.err.starts_with("detp: stopped while "));
     CHECK(finished.err.find('\n') + 1 == finished.err.size());

@@ -4,9 +4,11 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "detp/model/lines/line_measure.hpp"
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/rank/registry.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/validate/accuracy/accuracy_costs.hpp"
 #include "detp/validate/cli/process_clock.hpp"
 
 namespace detp::cli {
@@ -26,7 +28,33 @@ std::optional<Counts<double>> prediction(const Workload& workload, const RunAnsw
   }
 }
 
-std::optional<Whole> predicted_whole(const RunAnswer& answer, const std::optional<Counts<double>>& counts) {
+namespace {
+
+/// Of an estimator that looks at photons; those of its pairs are not counted before, but expected.
+Whole whole_of_estimator(const validate::Job& job, const RunAnswer& answer) {
+  const Workload& workload = job.given;
+  const double rays = std::max(1.0, workload.rays);
+  const double edge = job.surface.edge_length;
+  const auto* map = std::get_if<PhotonMapParameters>(&answer.candidate.parameters);
+  const validate::AccuracyCosts costs(job.triangles, answer.threads);
+  const validate::SettingCounts counts{
+      .hits_per_ray = model::expected_hits(workload) / rays,
+      .radius_over_edge = edge > 0 ? workload.disc_radius / edge : 0,
+      .nearest_per_ray = map != nullptr ? static_cast<double>(map->nearest) / rays : 0};
+  constexpr double searched_again = 115;  // bytes a ray of variable-radius: AMD EPYC (Zen 5), four scenes
+  const double beside = answer.estimator == sim::Estimator::variable_radius ? searched_again * rays : 0;
+  Whole whole{validate::whole_seconds(answer.whole, {}, 0, answer.threads), validate::peak_bytes(answer.whole, beside)};
+  whole.seconds.search =
+      (1 + answer.repeat) * costs.estimate(answer.estimator, workload.samples, counts).at(workload.rays);
+  return whole;
+}
+
+}  // namespace
+
+std::optional<Whole> predicted_whole(const validate::Job& job, const RunAnswer& answer,
+                                     const std::optional<Counts<double>>& counts) {
+  const bool by_photons = answer.estimator != sim::Estimator::disc && !gathers(answer);
+  if (by_photons && !answer.until) return whole_of_estimator(job, answer);
   if (!counts) return std::nullopt;
   const int threads = sim::useful_threads(answer.threads);
   const CostBreakdown search = price(*counts, answer.costs, answer.candidate.technique, threads);

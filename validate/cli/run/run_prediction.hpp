@@ -15,8 +15,9 @@ namespace detp::cli {
 /// candidate has none, and of other estimators and runs until an error.
 [[nodiscard]] std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer);
 
-/// Of the whole command, from such counts.
-[[nodiscard]] std::optional<Whole> predicted_whole(const RunAnswer& answer,
+/// Of the whole command: of pairs from such counts, of estimators that look at photons by AccuracyCosts and the hits expected of closed forms.
+/// Nothing for backward paths, whose rays are known only by a pilot (`accuracy`), and for runs until an error.
+[[nodiscard]] std::optional<Whole> predicted_whole(const validate::Job& job, const RunAnswer& answer,
                                                    const std::optional<Counts<double>>& counts);
 
 /// Until now.
