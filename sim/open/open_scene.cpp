@@ -95,7 +95,8 @@ void add_samples(Scene& scene, const SceneRequest& request, const std::stop_toke
 void add_lights(Scene& scene, const SceneRequest& request, const Up& up, const std::stop_token& stop) {
   std::vector<LightKind> kinds = request.lights;
   if (kinds.empty() && scene.lights.empty()) kinds = {LightKind::area};
-  if (!kinds.empty()) scene.lights = placed_lights(kinds, scene.mesh, scene.box, up, stop);
+  scene.lights_placed = !kinds.empty();
+  if (scene.lights_placed) scene.lights = placed_lights(kinds, scene.mesh, scene.box, up, stop);
   scene.up = up;
 }
 

@@ -26,7 +26,8 @@ struct Scene {
   Box box;                      ///< of the samples and of the mesh's used vertices; in @uniform its cube
   std::vector<Light> lights;    ///< none in @uniform
   Field field = Field::photons;
-  Up up;  ///< by which lights were placed
+  bool lights_placed = false;  ///< not the scene's own
+  Up up;                       ///< by which they were placed
   /// How far pieces of photon paths go on through the surface where they end, at most up to the next surface, so that no
   /// surface shadows its own discs (photon_paths.hpp). Unbounded: always up to the second intersection.
   double overshoot = 0;

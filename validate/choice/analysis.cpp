@@ -64,8 +64,12 @@ class Analyser {
       if (const auto& seconds = all_.candidates[i].seconds;
           seconds && (!all_.best || *seconds < *all_.candidates[*all_.best].seconds))
         all_.best = i;
-    if (all_.best && all_.candidates.front().seconds)
-      all_.regret = *all_.candidates.front().seconds / *all_.candidates[*all_.best].seconds - 1;
+    if (all_.best && all_.candidates.front().seconds) {
+      const Analysed& choice = all_.candidates.front();
+      const Analysed& best = all_.candidates[*all_.best];
+      all_.regret = *choice.seconds / *best.seconds - 1;
+      if (*all_.best != 0) all_.regret_error = std::hypot(choice.spread, best.spread) / *best.seconds;
+    }
     all_.stopped = options_.stop.stop_requested();
     return std::move(all_);
   }

@@ -32,6 +32,8 @@ struct Analysis {
   std::optional<std::size_t> best;  ///< index of the candidate with the shortest measured time
   /// measured time of the predicted choice (the first candidate) divided by the shortest measured time, minus 1
   std::optional<double> regret;
+  /// of the regret: half the ranges of both candidates' timed runs, together, over the shortest time
+  double regret_error = 0;
   bool stopped = false;  ///< true if a stop was requested: some candidates may not have been run and timed
 };
 

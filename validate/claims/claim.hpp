@@ -68,6 +68,7 @@ struct Experiment {
   Workload workload;                          ///< the formulas' input; the rays are lines
   std::vector<sim::Disc> discs;               ///< of a scene; if empty, uniform discs are drawn as the workload says
   std::optional<ChoiceQuestion> choice = {};  ///< if the experiment is on a scene
+  std::vector<double> ratios = {0.3, 0.5, 0.65, 0.8};  ///< Q of sphere caches
   std::uint64_t seed = 1;
   std::stop_token stop = {};
   sim::Ranks* ranks = nullptr;  ///< that have the same experiment; null: this process alone

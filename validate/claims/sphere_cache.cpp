@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "detp/model/optimum/best_ratio.hpp"
@@ -21,8 +20,6 @@
 namespace detp::validate {
 namespace {
 
-constexpr std::array ratios{0.3, 0.5, 0.65, 0.8};
-constexpr std::string_view over_ratios = "geometric mean over Q = 0.3, 0.5, 0.65, 0.8";
 constexpr double cache_tolerance = 0.025;
 constexpr double least_rebuilds = 30;
 
@@ -33,9 +30,13 @@ struct CacheLogs {
   double intersect_time = 0;
 };
 
+/// For each Q.
 struct CacheSet {
-  std::array<CacheLogs, ratios.size()> counted, published, corrected;
-  std::array<double, ratios.size()> time_ratio{};  ///< counted T_R divided by the structural T_R
+  explicit CacheSet(std::size_t ratios = 0)
+      : counted(ratios), published(ratios), corrected(ratios), time_ratio(ratios) {}
+
+  std::vector<CacheLogs> counted, published, corrected;
+  std::vector<double> time_ratio;  ///< counted T_R divided by the structural T_R
 };
 
 SphereCacheParameters parameters_for(const Workload& workload, double ratio) {
@@ -60,14 +61,15 @@ double mean_log_rebuilds(const std::vector<model::SphereLevel>& levels, const Re
 
 void compare(CacheSet& result, std::size_t q, const Workload& workload, const sim::Problem& problem,
              const Experiment& experiment) {
-  const SphereCacheParameters parameters = parameters_for(workload, ratios[q]);
+  const double ratio = experiment.ratios[q];
+  const SphereCacheParameters parameters = parameters_for(workload, ratio);
   const sim::Outcome run =
       sim::run(problem, {Technique::sphere_cache, parameters}, {.engine = Engine::plain, .stop = experiment.stop});
   if (run.stopped) return;
   const auto rays = static_cast<double>(problem.rays().size());
   const auto levels = model::sphere_levels(workload, parameters, parameters.spheres);
   const auto of_published = [&](std::size_t i) {
-    return std::min(workload.samples, model::published::rebuilds({ratios[q]}, static_cast<std::int64_t>(i) + 1));
+    return std::min(workload.samples, model::published::rebuilds({ratio}, static_cast<std::int64_t>(i) + 1));
   };
   result.counted[q] = {mean_log_rebuilds(levels,
                                          [&](std::size_t i) {  // spheres in which no disc fitted were never built
@@ -81,8 +83,8 @@ void compare(CacheSet& result, std::size_t q, const Workload& workload, const si
                          std::log(corrected.cull_tests / workload.rays),
                          std::log(corrected.disc_tests / workload.rays)};
   const std::int64_t k =
-      model::sphere_count(Form::published, {ratios[q]}, {workload.disc_radius}, {workload.sphere_radius});
-  const Counts<double> published = model::published::counts(workload, {ratios[q]}, k);
+      model::sphere_count(Form::published, {ratio}, {workload.disc_radius}, {workload.sphere_radius});
+  const Counts<double> published = model::published::counts(workload, {ratio}, k);
   result.published[q] = {mean_log_rebuilds(levels, of_published), std::log(published.cull_tests / workload.rays),
                          std::log(published.disc_tests / workload.rays)};
   const ExpectedWalk walk = structural_walk(problem.discs(), problem.enclosing(), parameters, experiment.stop);
@@ -97,25 +99,29 @@ Workload enclosed_workload(const Experiment& experiment, const sim::Problem& pro
 
 std::vector<CacheSet> run_all(const Experiment& experiment, std::size_t lines) {
   return for_each_batch(experiment, [&](int set) {
-    CacheSet result;
+    CacheSet result(experiment.ratios.size());
     const std::vector<sim::Disc> discs = sample_discs(experiment, set);
     const auto rays =
         sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, 11, set)).lines(0, lines, experiment.stop);
     const sim::Problem problem = sim::make_problem(rays, discs);
-    for (std::size_t q = 0; q < ratios.size(); ++q)
+    for (std::size_t q = 0; q < experiment.ratios.size(); ++q)
       compare(result, q, enclosed_workload(experiment, problem), problem, experiment);
     return result;
   });
 }
 
-using Columns = std::array<CacheLogs, ratios.size()> CacheSet::*;
+using Columns = std::vector<CacheLogs> CacheSet::*;
 
 /// Over all Q and all sets.
 double geometric_mean(const std::vector<CacheSet>& sets, Columns columns, double CacheLogs::*term) {
   double sum = 0;
+  double count = 0;
   for (const CacheSet& set : sets)
-    for (const CacheLogs& logs : set.*columns) sum += logs.*term;
-  return std::exp(sum / static_cast<double>(sets.size() * ratios.size()));
+    for (const CacheLogs& logs : set.*columns) {
+      sum += logs.*term;
+      ++count;
+    }
+  return std::exp(sum / count);
 }
 
 /// Geometric mean of the counts over all Q and all sets. The standard error is that of the mean logarithm between sets,
@@ -125,7 +131,7 @@ Estimate counted(const std::vector<CacheSet>& sets, double CacheLogs::*term) {
   for (const CacheSet& set : sets) {
     double sum = 0;
     for (const CacheLogs& one : set.counted) sum += one.*term;
-    logs.push_back(sum / ratios.size());
+    logs.push_back(sum / static_cast<double>(set.counted.size()));
   }
   const Estimate log = batch_means(logs);
   return {std::exp(log.mean), std::exp(log.mean) * log.standard_error};
@@ -133,20 +139,20 @@ Estimate counted(const std::vector<CacheSet>& sets, double CacheLogs::*term) {
 
 /// Compares k with the number of nested spheres of a run that stops only when no disc fits in the next sphere.
 Finding count_finding(const Experiment& experiment) {
+  const bool usual = std::ranges::find(experiment.ratios, model::published_ratio) != experiment.ratios.end();
+  const double ratio = usual ? model::published_ratio : experiment.ratios.front();
   const std::vector<sim::Disc> discs = sample_discs(experiment, 0);
   const auto ray = sim::LineField(sim::enclosing_sphere(discs), experiment.seed).lines(0, 1);
   const sim::Problem problem = sim::make_problem(ray, discs);
   const Workload workload = enclosed_workload(experiment, problem);
   const sim::Outcome run =
-      sim::run(problem, {Technique::sphere_cache, SphereCacheParameters{model::published_ratio, 10'000}},
-               {.engine = Engine::plain});
+      sim::run(problem, {Technique::sphere_cache, SphereCacheParameters{ratio, 10'000}}, {.engine = Engine::plain});
   const auto k = [&](Form form) {
-    return static_cast<double>(
-        model::sphere_count(form, {model::published_ratio}, {workload.disc_radius}, {workload.sphere_radius}));
+    return static_cast<double>(model::sphere_count(form, {ratio}, {workload.disc_radius}, {workload.sphere_radius}));
   };
   return {
       .id = "sphere-count",
-      .quantity = fmt::format("k at Q = {}: spheres that can hold a disc", model::published_ratio),
+      .quantity = fmt::format("k at Q = {}: spheres that can hold a disc", ratio),
       .predictions = {{Form::published, "eq (7)", k(Form::published)}, {Form::corrected, "eq (6)", k(Form::corrected)}},
       .observed = {static_cast<double>(run.spheres.size()), 0},
       .lines = 1};
@@ -162,11 +168,11 @@ Finding mean_finding(const std::vector<CacheSet>& sets, double CacheLogs::*term,
   return finding;
 }
 
-Finding walk_finding(const std::vector<CacheSet>& sets, std::size_t q) {
+Finding walk_finding(const std::vector<CacheSet>& sets, std::size_t q, double ratio) {
   std::vector<double> values;
   for (const CacheSet& set : sets) values.push_back(set.time_ratio[q]);
-  return {.id = fmt::format("rebuild-time-structural-{}", ratios[q]),
-          .quantity = fmt::format("T_R counted over T_R from the sorted samples alone, Q = {}", ratios[q]),
+  return {.id = fmt::format("rebuild-time-structural-{}", ratio),
+          .quantity = fmt::format("T_R counted over T_R from the sorted samples alone, Q = {}", ratio),
           .predictions = {{Form::corrected, "structural walk, our derivation", 1}},
           .observed = batch_means(values),
           .batches = batch_count,
@@ -182,7 +188,10 @@ std::vector<Finding> sphere_cache_findings(const Experiment& experiment) {
   std::vector<Finding> findings{count_finding(experiment)};
   const std::vector<CacheSet> sets = run_all(experiment, lines);
   if (experiment.stop.stop_requested()) return {};
-  const auto mean = [](std::string_view what) { return fmt::format("{}: {}", what, over_ratios); };
+  const std::vector<double>& ratios = experiment.ratios;
+  const std::string at =
+      fmt::format("{}Q = {}", ratios.size() > 1 ? "geometric mean over " : "", fmt::join(ratios, ", "));
+  const auto mean = [&](std::string_view what) { return fmt::format("{}: {}", what, at); };
   findings.push_back(mean_finding(sets, &CacheLogs::rebuilds, {.id = "rebuilds", .quantity = mean("m_i >= 30")},
                                   "eq (17), at most n_P", "tabulated law, our derivation"));
   findings.push_back(mean_finding(sets, &CacheLogs::rebuild_time,
@@ -191,7 +200,7 @@ std::vector<Finding> sphere_cache_findings(const Experiment& experiment) {
   findings.push_back(mean_finding(sets, &CacheLogs::intersect_time,
                                   {.id = "intersect-time", .quantity = mean("T_I per ray, u = 1")}, "eq (8)",
                                   "eq (8) with k by eq (6) and the list of S_k"));
-  for (std::size_t q = 0; q < ratios.size(); ++q) findings.push_back(walk_finding(sets, q));
+  for (std::size_t q = 0; q < ratios.size(); ++q) findings.push_back(walk_finding(sets, q, ratios[q]));
   for (Finding& finding : findings) {
     finding.technique = name(Technique::sphere_cache);
     finding.lines = std::max<std::uint64_t>(finding.lines, finding.batches > 0 ? lines * batch_count : 1);
@@ -202,7 +211,7 @@ std::vector<Finding> sphere_cache_findings(const Experiment& experiment) {
 
 double sphere_cache_work(const Experiment& experiment) {
   double work = 0;
-  for (const double ratio : ratios) {
+  for (const double ratio : experiment.ratios) {
     const SphereCacheParameters parameters = parameters_for(experiment.workload, ratio);
     const auto counts = model::predict(experiment.workload, {Technique::sphere_cache, parameters}, Engine::plain);
     // The structural walk uses 64 lines for the first 500 rebuilds of each level, 8 for all later ones. A line takes 10

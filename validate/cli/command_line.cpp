@@ -12,12 +12,33 @@
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
+#include "short_help.hpp"
 
 namespace detp::cli {
 namespace {
 
+constexpr std::string_view columns_of_files = R"(
+Files: CSV with a heading, PLY with these properties, or NPY (structured, or the columns in this order).
+  discs  x,y,z,nx,ny,nz and, if wanted, radius (or --disc-radius)
+  rays   ox,oy,oz,dx,dy,dz and, if wanted, length (inf or none: a line in both directions), power (1), photon
+         (pieces of one path share a whole number), landing (distance to the surface that was met)
+Units: lengths as in the scene. Irradiance is the rays' power over area. Ke of a material is the radiance of its front,
+  a light's power is Ke times pi times its area.
+)";
+
+/// The help of a command, short or with all options.
 class HelpFormatter final : public CLI::Formatter {
  public:
+  bool all = false;
+
+  std::string make_help(const CLI::App* command, std::string name, CLI::AppFormatMode mode) const override {
+    const std::string_view brief = short_help(command->get_name());
+    if (brief.empty()) return CLI::Formatter::make_help(command, std::move(name), mode);
+    if (!all) return std::string(brief);
+    const bool reads = command->get_option_no_throw("--discs") != nullptr;
+    return CLI::Formatter::make_help(command, std::move(name), mode) + std::string(reads ? columns_of_files : "");
+  }
+
   std::string make_option(const CLI::Option* option, bool positional) const override {
     const std::size_t column = get_column_width();
     std::string name = "  " + make_option_name(option, positional) + make_option_opts(option);
@@ -82,8 +103,10 @@ CommandLine::CommandLine()
   // 0 is allowed, because otherwise the parser would report an unknown command as a missing command.
   program_.require_subcommand(0, 1);
   const auto formatter = std::make_shared<HelpFormatter>();
+  all_options_ = &formatter->all;
   program_.formatter(formatter);
-  program_.footer("detp help COMMAND explains a command and its options.");
+  program_.footer(
+      "detp help COMMAND explains a command and its options that matter most, detp help COMMAND all every option.");
   for (const Command& command : commands_) {
     add_common_options(*command.app, common_);
     command.app->formatter(formatter);
@@ -97,8 +120,15 @@ const Command& CommandLine::parse(int argc, char** argv) {
   std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   if (!arguments.empty() && arguments.front() == "help") {
     arguments.erase(arguments.begin());
+    *all_options_ = arguments.size() > 1 && arguments[1] == "all";
     arguments.resize(std::min<std::size_t>(arguments.size(), 1));
     arguments.emplace_back("--help");
+  }
+  const auto help = std::find_if(arguments.begin(), arguments.end(),
+                                 [](const std::string& one) { return one == "--help" || one == "-h"; });
+  if (help != arguments.end() && std::next(help) != arguments.end() && *std::next(help) == "all") {
+    *all_options_ = true;
+    arguments.erase(std::next(help));
   }
   if (!arguments.empty() && !arguments.front().starts_with('-')) require_command(arguments.front());
   std::reverse(arguments.begin(), arguments.end());  // the parser expects the reverse order

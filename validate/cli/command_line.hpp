@@ -37,6 +37,7 @@ class CommandLine {
   CLI::App program_;
   CommonOptions common_;
   std::array<Command, 9> commands_;
+  bool* all_options_ = nullptr;  ///< of the formatter: the help is to have every option
 };
 
 }  // namespace detp::cli

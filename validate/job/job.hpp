@@ -126,7 +126,8 @@ struct Job {
   std::shared_ptr<sim::Scene> scene = {};             ///< if it was to be kept
   std::shared_ptr<const sim::RayCaster> caster = {};  ///< of photon paths, if the scene was to be kept
   std::vector<sim::Light> lights;                     ///< of the scene
-  sim::Up up;                                         ///< by which lights were placed
+  bool lights_placed = false;                         ///< not the scene's own
+  sim::Up up;                                         ///< by which they were placed
   Workload given;             ///< without effects: numbers of rays and discs, sizes; known without measuring
   sim::SurfaceFacts surface;  ///< of the scene's mesh
   std::optional<sim::LightLedger> light = {};  ///< of photon paths that were traced; of a stream, before it is read

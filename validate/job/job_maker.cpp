@@ -182,6 +182,7 @@ class JobMaker {
     job_.name = scene_->name;
     job_.notices = scene_->notices;
     job_.lights = scene_->lights;
+    job_.lights_placed = scene_->lights_placed;
     job_.up = scene_->up;
     job_.triangles = scene_->mesh.triangles.size();
     job_.polygons = scene_->mesh.polygons;

@@ -3,11 +3,11 @@
 set(subject "${DETP} ${COMMAND}")
 string(STRIP "${subject}" subject)
 string(REGEX REPLACE "-$" "" name "detp-${COMMAND}")
-separate_arguments(words UNIX_COMMAND "${subject} --help")
+separate_arguments(words UNIX_COMMAND "${subject} --help all")
 execute_process(COMMAND ${words} OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCH "^[^\n]*" title "${help}")
 string(REGEX REPLACE "\\.$" "" title "${title}")
-execute_process(COMMAND ${HELP2MAN} --no-info --include ${MORE} --name "${title}" --version-string "detp ${VERSION}" ${subject}
+execute_process(COMMAND ${HELP2MAN} --no-info --help-option "--help all" --include ${MORE} --name "${title}" --version-string "detp ${VERSION}" ${subject}
                 OUTPUT_VARIABLE page COMMAND_ERROR_IS_FATAL ANY)
 string(TOUPPER "${name}" upper)
 string(REGEX REPLACE "\n\\.TH DETP " "\n.TH ${upper} " page "${page}")

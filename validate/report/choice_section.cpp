@@ -20,9 +20,13 @@ std::string finding_of(const ReportJson& choice) {
     text += fmt::format(": predicted {}", seconds_words(*seconds, number(best, "predicted_seconds_error")));
   if (const auto regret = number(choice, "regret"))
     text += *regret < 0.005 ? ". It is what was predicted"
-                            : fmt::format(". What was predicted to be fastest, {} with {}, took {} longer",
-                                          words(list(choice, "predicted_choice"), "technique"),
-                                          parameter_words(list(choice, "predicted_choice")), percent_label(*regret));
+            : *regret <= number(choice, "regret_error").value_or(0)
+                ? fmt::format(". What was predicted to be fastest, {} with {}, is as fast within the noise of the runs",
+                              words(list(choice, "predicted_choice"), "technique"),
+                              parameter_words(list(choice, "predicted_choice")))
+                : fmt::format(". What was predicted to be fastest, {} with {}, took {} longer",
+                              words(list(choice, "predicted_choice"), "technique"),
+                              parameter_words(list(choice, "predicted_choice")), percent_label(*regret));
   return text + ".";
 }
 

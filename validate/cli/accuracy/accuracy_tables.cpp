@@ -118,7 +118,7 @@ Json to_json(const AccuracyAnswer& answer) {
     chosen["within"] = within_of(answer.plan.target);
     chosen["share_within"] = json_of(answer.check->share_within);
   }
-  chosen["text"] = answer_words(answer);
+  chosen["text"] = answer_words(answer) + " " + command_of(answer, best);
   Json points = Json::array();
   for (const AccuracyPoint& point : answer.plan.points) points.push_back(point_json(answer, point));
   for (const validate::AxisPoint& point : answer.axes) points.push_back(axis_json(point));

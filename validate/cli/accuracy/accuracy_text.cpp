@@ -177,7 +177,8 @@ std::string answer_words(const AccuracyAnswer& answer) {
   if (answer.check && answer.check->share_within)
     text += fmt::format("{} of the samples are within {}. ", percent(*answer.check->share_within),
                         percent(within_of(target)));
-  return text + command_of(answer, best);
+  text.pop_back();  // the space after the last sentence
+  return text;
 }
 
 std::size_t inside(const AccuracyAnswer& answer) {
@@ -196,6 +197,7 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
                                  bias_words(answer.in_time), way(answer, answer.in_time), answer.plan.answer.slope,
                                  answer.plan.answer.slope_low, answer.plan.answer.slope_high),
       screen.text_width(), 10);
+  text += "command   " + command_of(answer, answer.plan.answer) + "\n";  // one line, to be pasted
   text += wrapped("estimator " + rivals_words(answer), screen.text_width(), 10);
   if (!answer.reruns.empty()) text += wrapped("runs      " + reruns_words(answer), screen.text_width(), 10);
   text += "\n";

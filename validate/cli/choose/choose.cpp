@@ -75,7 +75,7 @@ std::vector<Technique> disabled_techniques(const ChooseOptions& options) {
   return disabled;
 }
 
-/// Throws std::invalid_argument if the predicted times cannot be compared. Adds the candidate of the paper's rule.
+/// Throws std::invalid_argument if the predicted times cannot be compared. Adds the candidate of the paper's rule, and brute force.
 void check_ranking(ChooseAnswer& answer, const CostTable& costs, int threads) {
   const double fastest = answer.choice.best().time.total();
   if (!(fastest > 0))
@@ -88,6 +88,8 @@ void check_ranking(ChooseAnswer& answer, const CostTable& costs, int threads) {
         fmt::format("with these unit costs the time of {} exceeds 1.8e308 s and cannot be compared; give smaller costs",
                     name(answer.choice.candidates.back().candidate.technique)));
   answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs, threads);
+  answer.brute_force =
+      model::assess(answer.workload, {Technique::brute_force, BruteForceParameters{}}, costs, threads).time.total();
 }
 
 /// The progress if a stop request ended the search for tips, else nothing.

@@ -42,7 +42,8 @@ const char* role_of(const ChooseAnswer& answer, const ChooseRow& row, bool first
 }  // namespace
 
 std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
-  const Columns of_all{"tried", "regret", "rigor", "unit_costs", "choosing_seconds", "whole_seconds", "peak_bytes"};
+  const Columns of_all{"tried",      "regret",           "regret_error",  "rigor",
+                       "unit_costs", "choosing_seconds", "whole_seconds", "peak_bytes"};
   Table table(workload_columns() + effect_columns() + Columns{"warnings", "role"} + candidate_columns() +
               Columns{"engine", "threads"} + count_columns("predicted_") +
               Columns{"predicted_seconds", "predicted_seconds_again", "predicted_seconds_error", "could_still_win",

@@ -86,7 +86,7 @@ std::string measured_table(const ChooseAnswer& answer, const Screen& screen) {
   const validate::Analysis& analysis = *answer.analysis;
   const std::vector<ChooseRow> rows = rows_of(answer);
   std::vector<const ChooseRow*> fastest;  // of each technique, and the predicted choice
-  std::vector<std::string_view> untimed;
+  std::vector<std::pair<std::string, std::vector<std::string_view>>> untimed;  // by the reason
   for (const ChooseRow& row : rows) {
     if (!row.run->seconds) continue;
     const auto same = std::ranges::find(fastest, row.candidate.technique,
@@ -97,11 +97,18 @@ std::string measured_table(const ChooseAnswer& answer, const Screen& screen) {
       *same = &row;
   }
   if (fastest.empty()) return "";
-  for (const ChooseRow& row : rows)
-    if (std::ranges::none_of(rows, [&](const ChooseRow& one) {
-          return one.candidate.technique == row.candidate.technique && one.run->seconds;
-        }))
-      untimed.push_back(name(row.candidate.technique));
+  std::vector<Technique> told;
+  for (const ChooseRow& row : rows) {
+    const Technique technique = row.candidate.technique;
+    const bool timed = std::ranges::any_of(
+        rows, [&](const ChooseRow& one) { return one.candidate.technique == technique && one.run->seconds; });
+    if (timed || std::ranges::find(told, technique) != told.end()) continue;
+    told.push_back(technique);
+    const std::string reason = why_not_measured(analysis, *row.run);
+    auto same = std::ranges::find(untimed, reason, [](const auto& one) { return one.first; });
+    if (same == untimed.end()) same = untimed.insert(untimed.end(), {reason, {}});
+    same->second.push_back(name(technique));
+  }
   if (rows.front().run->seconds && std::ranges::find(fastest, &rows.front()) == fastest.end())
     fastest.push_back(&rows.front());
   std::ranges::stable_sort(fastest,
@@ -129,11 +136,8 @@ std::string measured_table(const ChooseAnswer& answer, const Screen& screen) {
                 style}});
   }
   std::string text = "\n" + table.text(screen);
-  if (!untimed.empty())
-    text += wrapped(fmt::format("not timed: {} ({})", fmt::join(untimed, ", "),
-                                analysis.stopped ? "given up, or not reached before the stop"
-                                                 : "given up when far behind the fastest, or not possible"),
-                    screen.text_width(), 2);
+  for (const auto& [reason, techniques] : untimed)
+    text += wrapped(fmt::format("not timed: {} ({})", fmt::join(techniques, ", "), reason), screen.text_width(), 2);
   return text;
 }
 

@@ -147,15 +147,20 @@ std::string short_text(const ChooseAnswer& answer, const Screen& screen) {
 }
 
 std::string analysis_text(const ChooseAnswer& answer, const Screen& screen) {
-  return choice_lines(answer, screen) + measured_table(answer, screen) + "\n" + paragraph(answer.title, screen) +
-         paragraph(short_effects_line(answer.effects), screen) + paragraph(planning_line(answer), screen) +
-         paragraph(costs_line(answer, false), screen) + hint(screen);
+  const std::string gain = gain_line(answer);
+  return choice_lines(answer, screen) + (gain.empty() ? "" : paragraph(gain, screen)) + measured_table(answer, screen) +
+         "\n" + paragraph(answer.title, screen) + paragraph(short_effects_line(answer.effects), screen) +
+         paragraph(planning_line(answer), screen) + paragraph(costs_line(answer, false), screen) + hint(screen);
 }
 
 std::string verbose_text(const ChooseAnswer& answer, const Screen& screen) {
   std::string text;
   const auto add = [&](const std::string& line) { text += paragraph(line, screen); };
-  if (answer.analysis) text += choice_lines(answer, screen) + missed_lines(answer, screen) + "\n";
+  if (answer.analysis) {
+    text += choice_lines(answer, screen) + missed_lines(answer, screen);
+    if (const std::string gain = gain_line(answer); !gain.empty()) add(gain);
+    text += "\n";
+  }
   add(answer.title);
   add(effects_line(answer.effects));
   text += candidate_table(answer, screen) + candidate_notes(answer, screen) + "\n";

@@ -11,13 +11,15 @@
 #include "plain_ratio.hpp"
 
 namespace detp::cli {
-namespace {
+namespace {}  // namespace
 
 std::string why_not_measured(const validate::Analysis& analysis, const validate::Analysed& run) {
   if (run.given_up_after) return fmt::format("given up after {:.2g} s", *run.given_up_after);
   if (!run.refused.empty()) return "not run: " + run.refused;
   return analysis.stopped ? "stopped before" : "not timed";
 }
+
+namespace {
 
 std::vector<const validate::Analysed*> to_explain(const validate::Analysis& analysis) {
   std::vector<const validate::Analysed*> runs{&analysis.candidates.front()};
@@ -31,15 +33,21 @@ std::string causes(const validate::PredictionError& error) {
                      how_far_off(error.unit_costs));
 }
 
-/// The line "predicted": how well the seconds of the predicted choice were predicted.
+/// The line "predicted": how well the seconds of the predicted choice were predicted. Its interval is of two standard
+/// errors: times and over (1 + the relative error)².
 std::string predicted_line(const ChooseAnswer& answer) {
   const validate::Analysed& run = answer.analysis->candidates.front();
   if (!run.predicted || !run.counted || !run.seconds) return "";
-  const double error = error_of(answer, rows_of(answer).front()).value_or(0);
-  return fmt::format("predicted {:.3g}{} s{}, {}", run.predicted->time.again(),
-                     error > 0 ? fmt::format(" ± {:.1g}", error) : "",
-                     answer.analysis->best == 0U ? "" : " for that choice",
-                     causes(validate::prediction_error(*run.predicted, *run.counted, *run.seconds, answer.costs)));
+  const double seconds = run.predicted->time.again();
+  const auto ratios = validate::prediction_error(*run.predicted, *run.counted, *run.seconds, answer.costs);
+  std::string text =
+      fmt::format("predicted {:.2g} s{}", seconds, answer.analysis->best == 0U ? "" : " for that choice");
+  const double error = error_of(answer, rows_of(answer).front()).value_or(0) / run.predicted->time.total();
+  if (!(error > 0)) return text + ", " + causes(ratios);
+  const double factor = (1 + error) * (1 + error);
+  const bool inside = *run.seconds > seconds / factor && *run.seconds < seconds * factor;
+  return text + fmt::format(" ({:.2g} to {:.2g}): measured {}, {}", seconds / factor, seconds * factor,
+                            inside ? "inside" : "outside", causes(ratios));
 }
 
 std::string missed_line(const validate::Analysed& run, const CostTable& costs) {
@@ -114,10 +122,12 @@ std::string regret_line(const validate::Analysis& analysis) {
   const validate::Analysed& best = analysis.candidates[*analysis.best];
   if (&predicted == &best) return "regret    0 %: the predicted choice was right";
   if (!analysis.regret) return "";
-  const bool noise = *predicted.seconds - predicted.spread <= *best.seconds + best.spread;
-  return fmt::format("regret    {:.1f} %: {}, the predicted choice, takes {:.3g} s{}", 100 * *analysis.regret,
-                     title(predicted.candidate), *predicted.seconds,
-                     noise ? ": right within the noise" : ": the choice was wrong");
+  const double regret = *analysis.regret;
+  const double error = analysis.regret_error;
+  return fmt::format("regret    {:.2g} %{}: {}, the predicted choice, takes {:.3g} s{}", 100 * regret,
+                     error > 0 ? fmt::format(" ± {:.1g}", 100 * error) : "", title(predicted.candidate),
+                     *predicted.seconds,
+                     regret <= error || regret < 0.01 ? ": as fast, within the noise of the timed runs" : "");
 }
 
 }  // namespace
@@ -141,6 +151,18 @@ std::string measured_lines(const ChooseAnswer& answer, const Screen& screen) {
     add(fmt::format("tried     {} of {} candidates before the stop: the others may be faster", analysis.tried,
                     analysis.candidates.size()));
   return text;
+}
+
+std::string gain_line(const ChooseAnswer& answer) {
+  const validate::Analysis& analysis = *answer.analysis;
+  if (!analysis.best) return "";
+  const double seconds = *analysis.candidates[*analysis.best].seconds;
+  const auto against = [&](const std::string& what, double time) {
+    return fmt::format("{} {:.2g} s, {}", what, time, as_long(time / seconds));
+  };
+  return "gain      " + against("testing every ray with every disc would take", answer.brute_force) + "; " +
+         against(fmt::format("{}, the paper's rule,", title(answer.paper.candidate)), answer.paper.time.total()) +
+         " (predicted)";
 }
 
 std::string missed_lines(const ChooseAnswer& answer, const Screen& screen) {
@@ -178,7 +200,10 @@ void add_analysis(Json& json, const ChooseAnswer& answer) {
       json["missed"].push_back(missed_json(*run, answer.costs));
   }
   json["tried"] = analysis.tried;
-  if (analysis.regret) json["regret"] = *analysis.regret;
+  if (analysis.regret) {
+    json["regret"] = *analysis.regret;
+    json["regret_error"] = analysis.regret_error;
+  }
   json["stopped"] = analysis.stopped;
 }
 

@@ -9,6 +9,9 @@ namespace detp::cli {
 [[nodiscard]] std::vector<TextColumn> measured_table_columns();
 [[nodiscard]] std::vector<TextCell> measured_cells(const validate::Analysed& run);
 
+/// Why a candidate that was not timed was not: "given up after 0.02 s".
+[[nodiscard]] std::string why_not_measured(const validate::Analysis& analysis, const validate::Analysed& run);
+
 /// Appends the results of a candidate's run: `counted`, `measured_seconds`, …, or the reason why it was not measured.
 void add_measured(Json& json, const validate::Analysis& analysis, const validate::Analysed& run);
 
@@ -19,6 +22,9 @@ void add_measured(Json& json, const validate::Analysis& analysis, const validate
 /// The lines "choice", "regret" and "predicted": the candidate with the shortest measured time, whether it was the predicted
 /// choice, and how well its seconds were predicted. After a stop, also how many candidates were tried.
 [[nodiscard]] std::string measured_lines(const ChooseAnswer& answer, const Screen& screen);
+
+/// The line "gain": what the obvious ways would take, as predicted. Empty if nothing was measured.
+[[nodiscard]] std::string gain_line(const ChooseAnswer& answer);
 
 /// The lines "missed": the errors of the predictions of the predicted choice and of the fastest candidate.
 [[nodiscard]] std::string missed_lines(const ChooseAnswer& answer, const Screen& screen);

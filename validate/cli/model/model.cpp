@@ -15,7 +15,9 @@
 #include "detp/validate/cli/report/columns.hpp"
 #include "detp/validate/cli/report/extrapolated.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
+#include "detp/validate/cli/text/shell_word.hpp"
 #include "model_outlook.hpp"
+#include "model_text.hpp"
 
 namespace detp::cli {
 namespace {
@@ -26,6 +28,7 @@ struct ModelOptions {
   std::string form = "corrected";
   std::string costs;
   std::optional<std::int64_t> levels;
+  bool verbose = false;
   OutlookOptions outlook;
 };
 
@@ -86,8 +89,31 @@ std::string notes_text(const Json& json, const Screen& screen) {
 std::string why_extrapolated(const Json& json) {
   std::string text;
   for (const Json& reason : json.value("extrapolated_because", Json::array()))
-    text += fmt::format("{:<26} {}\n", "extrapolated", reason.get<std::string>());
+    text += (text.empty() ? "caution   outside of what was compared with counts: " : "; ") + reason.get<std::string>();
+  return text.empty() ? text : text + "\n";
+}
+
+/// Results of --curvature and --target-error, a line each.
+std::string errors_text(const Json& json) {
+  std::string text;
+  for (const std::string& key : error_columns())
+    if (json.contains(key)) text += fmt::format("{:<26} {:.8g}\n", key, json[key].get<double>());
   return text;
+}
+
+struct Sentences {
+  std::string answer;
+  std::string command;  ///< one line, whatever the width
+};
+
+/// Sentences, or with --verbose the whole record.
+std::string text_of(const Json& json, const Sentences& sentences, const ModelOptions& options, const Screen& screen) {
+  std::string text;
+  for (const std::string& part : {sentences.answer, why_extrapolated(json)})
+    if (!part.empty()) text += wrapped(std::string_view(part).substr(0, part.size() - 1), screen.text_width(), 10);
+  text += sentences.command;
+  if (options.verbose) return text + "\n" + scalars(json) + level_table(json.value("spheres", Json::array()));
+  return text + (options.outlook.given() ? errors_text(json) : "");
 }
 
 const Columns& times() {
@@ -152,6 +178,7 @@ void require_finite_time(const Json& json) {
 struct Measured {
   Workload workload;
   Json inputs;
+  std::string options;  ///< that give detp validate the same workload; empty if they are not known
 };
 
 Measured measure(const ModelOptions& options, const CommonOptions& common, const std::stop_token& stop) {
@@ -159,15 +186,20 @@ Measured measure(const ModelOptions& options, const CommonOptions& common, const
   request.workload_only = true;
   if (request.numbers_alone()) {
     const Workload workload = validate::workload_of_numbers(request);
-    return {workload, numbers_json(workload)};
+    std::string options = fmt::format("--samples {} --disc-radius {:.6g} --scene-side {:.6g}", workload.samples,
+                                      workload.disc_radius, scene_side(workload));
+    if (workload.dimension < 3) options += fmt::format(" --dimension {:.6g}", workload.dimension);
+    return {workload, numbers_json(workload), options};
   }
   const validate::Job job = validate::make_job(request, stop);
   note_all(common, job);
-  return {job.workload(), to_json(job, request)};
+  const bool scene_alone = request.scene && !request.disc_file && !request.ray_file;
+  return {job.workload(), to_json(job, request),
+          scene_alone ? fmt::format("{} --disc-radius {:.6g}", shell_word(*request.scene), job.given.disc_radius) : ""};
 }
 
-AnswerRow answer_row(const ModelOptions& options, const Measured& measured, const UnitCosts& costs,
-                     std::int64_t levels) {
+AnswerRow answer_row(const ModelOptions& options, const Measured& measured, const UnitCosts& costs, std::int64_t levels,
+                     Sentences& sentences) {
   const Technique technique = options.candidate.technique_or(Technique::sphere_cache);
   (void)options.candidate.fixed_parameters(technique);  // throws for parameters of other techniques
   const Form form = choice_named<Form>(options.form).value();
@@ -184,6 +216,8 @@ AnswerRow answer_row(const ModelOptions& options, const Measured& measured, cons
   row.answer.update(outlook(question, found.parameters, options.outlook));
   row.answer.update(extrapolated_json(model::extrapolations(measured.workload, {technique, found.parameters})));
   require_finite_time(row.answer);
+  sentences = {model_sentences(question, found, !options.costs.empty()),
+               measured.options.empty() ? "" : counting_command(question, found, measured.options)};
   row.cells = cells_of(row.inputs, {technique, found.parameters}, row.answer);
   return row;
 }
@@ -193,17 +227,16 @@ Result run_model(ModelOptions& options, const CommonOptions& common, const std::
   const std::int64_t levels = options.levels.value_or(expected == 1 ? 64 : 0);
   require_count("--levels", static_cast<double>(levels), 0, 1e6);
   const UnitCosts costs = parse_unit_costs(options.costs).value_or(UnitCosts{});
+  Sentences sentences;
   const auto rows = answer_all(
       options.workload.lists, options.candidate.lists, stop, [&] { return measure(options, common, stop); },
-      [&](const Measured& measured) { return answer_row(options, measured, costs, levels); });
+      [&](const Measured& measured) { return answer_row(options, measured, costs, levels, sentences); });
   Result result =
       result_of(rows, expected, columns(),
                 {workload_columns() + candidate_columns() + Columns{"form", "curvature", "target_error"},
                  stop_columns() + (options.outlook.given() ? error_columns() : Columns{}) + times() + per_line(),
                  common.screen()});
-  if (expected == 1)
-    result.text =
-        scalars(result.json) + why_extrapolated(result.json) + level_table(result.json.value("spheres", Json::array()));
+  if (expected == 1) result.text = text_of(result.json, sentences, options, common.screen());
   result.text += notes_text(rows.front().answer, common.screen());
   return result;
 }
@@ -225,6 +258,8 @@ Command model_command(CLI::App& program) {
   app->add_option("--costs", options->costs, unit_cost_help() + "\ndefault: t, u, w, v, n 1, so that times are counts");
   add_number(*app, "--levels", options->levels, "how many spheres to list; default: 64, of several rows none");
   options->outlook.add_to(*app, options->candidate.lists);
+  app->add_flag("--verbose", options->verbose,
+                "text with all that JSON has: every sphere, count and time; default: sentences");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_model(*options, common, stop);
           }};

@@ -16,7 +16,9 @@ void note(const CommonOptions& common, const std::string& message) {
   const Screen screen = screen_of(STDERR_FILENO, common.colour);
   const bool warning = message.starts_with("warning: ");
   const char* const wipe = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";  // erases the progress line
-  write_error(wipe + styled(screen, warning ? Style::doubtful : Style::plain, escaped(message)) + "\n");
+  std::string text = escaped(message) + "\n";
+  if (screen.width > 0) text = wrapped(escaped(message), screen.width, 2);  // a terminal; elsewhere a line stays one
+  write_error(wipe + styled(screen, warning ? Style::doubtful : Style::plain, text));
 }
 
 }  // namespace detp::cli

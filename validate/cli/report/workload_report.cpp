@@ -19,9 +19,9 @@ std::string spaced(double count) {
   return digits;
 }
 
-/// "; lights: area, spot (up: y)"; empty if the rays are not from lights.
+/// "; lights: area, spot (up: y)"; empty if the rays are not from lights, or these are the scene's own.
 std::string lights_of(const validate::Job& job) {
-  if (job.lights.empty() || job.field != sim::Field::photons || job.rays_from_file) return "";
+  if (!job.lights_placed || job.field != sim::Field::photons || job.rays_from_file) return "";
   std::vector<std::string_view> kinds;
   for (const sim::Light& light : job.lights) kinds.push_back(name(sim::kind_of(light)));
   return fmt::format("; light{}: {} (up: {})", kinds.size() == 1 ? "" : "s", fmt::join(kinds, ", "), sim::name(job.up));

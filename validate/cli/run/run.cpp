@@ -19,6 +19,7 @@
 #include "detp/validate/cli/text/progress_line.hpp"
 #include "detp/validate/stopping/job_batches.hpp"
 #include "hit_files.hpp"
+#include "run_prediction.hpp"
 #include "run_report.hpp"
 #include "run_until.hpp"
 #include "timed_run.hpp"
@@ -40,6 +41,7 @@ struct RunOptions {
   bool verbose = false;
   TargetOptions target;
   std::optional<std::string> share;
+  std::optional<std::string> form;
 };
 
 sim::Estimator parse_estimator(const std::string& text) {
@@ -161,6 +163,8 @@ void check_options(const RunOptions& options, std::size_t rows) {
     throw std::invalid_argument(
         "--material and --group say of which samples the error is: give --target-noise or --target-error");
   static_cast<void>(share_of(options));
+  if (options.form && options.target.given())
+    throw std::invalid_argument("--form changes the predicted counts; a run until an error has none");
   if (options.target.checkpoint && (!options.target.given() || rows > 1))
     throw std::invalid_argument("--checkpoint keeps one run with --target-noise or --target-error");
 }
@@ -192,6 +196,20 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const validat
   if (options.repeat > 0 && timed < static_cast<std::size_t>(options.repeat))
     return sim::Progress{timed, static_cast<std::uint64_t>(options.repeat), "timed runs"};
   return std::nullopt;
+}
+
+/// Throws std::invalid_argument if a technique has no formulas of the form requested, or none is named.
+std::optional<Form> form_of(const RunOptions& options) {
+  if (!options.form) return std::nullopt;
+  const Form form = choice_named<Form>(*options.form).value();
+  if (!options.candidate.technique)
+    throw std::invalid_argument("--form is of one technique's formulas: give --technique");
+  const Technique technique = options.candidate.technique_or(Technique::sphere_cache);
+  if (form == Form::published && !is_published(technique))
+    throw std::invalid_argument(
+        fmt::format("the paper has no formulas for {}; it has for sphere-cache, sphere-cache-published and octree",
+                    name(technique)));
+  return form;
 }
 
 /// What the estimators of all rows need.
@@ -274,6 +292,7 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
                    .threads = choice.threads,
                    .costs = priced,
                    .engine = options.candidate.engine,
+                   .form = form_of(options),
                    .repeat = options.repeat,
                    .standard_error = options.standard_error,
                    .whole = validate::whole_inputs(options.workload.request(common), job, job.given.rays),
@@ -394,6 +413,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     inputs["engine"] = name(options.candidate.engine);
     inputs["threads"] = sim::thread_count(common.threads);  // a cap if the command chooses
     inputs["repeat"] = options.repeat;
+    inputs["form"] = options.form ? Json(*options.form) : Json();
     inputs.erase("paths");  // of the row before
     if (gathers(found)) inputs["paths"] = found.paths;
     if (options.target.given()) {
@@ -448,6 +468,9 @@ Command run_command(CLI::App& program) {
   options->candidate.lists.add_count(*app, "--paths", Values::many, options->paths,
                                      "of gather: how many paths start at each disc, on each side that counts, as 1k; "
                                      "default: 64");
+  options->candidate.lists.add_word(*app, "--form", Values::many, options->form, {"published", "corrected"},
+                                    "formulas that predict the counts, beside those counted: published (the paper's; "
+                                    "of sphere caches and the octree) or corrected; default: corrected");
   options->costs.add_calibration_to(*app);
   app->add_option("--share", options->share,
                   "what several processes share, rays or discs; default: rays, or discs if they do not fit in memory");

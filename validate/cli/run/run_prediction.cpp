@@ -4,21 +4,41 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "detp/model/disc_index/disc_index_published.hpp"
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/rank/registry.hpp"
+#include "detp/model/sphere_cache/sphere_cache_published.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/validate/accuracy/accuracy_costs.hpp"
 #include "detp/validate/cli/process_clock.hpp"
 
 namespace detp::cli {
+namespace {
+
+/// By the paper's formulas, at the number of spheres or the depth of the run.
+Counts<double> published_counts(const Workload& workload, const Candidate& candidate) {
+  if (const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters))
+    return model::published::counts(workload, {cache->ratio}, cache->spheres);
+  const int depth = std::get<OctreeParameters>(candidate.parameters).depth;
+  return {.disc_tests = workload.rays * model::published::tests_per_line(workload.samples, depth),
+          .nodes = workload.rays * model::published::cells_per_line(depth)};
+}
+
+}  // namespace
 
 bool is_predicted(const RunAnswer& answer) {
   return answer.estimator == sim::Estimator::disc && answer.choice && answer.choice->sampled_rays > 0;
 }
 
+bool is_published(Technique technique) {
+  return technique == Technique::sphere_cache || technique == Technique::sphere_cache_published ||
+         technique == Technique::octree;
+}
+
 std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer) {
   if (answer.until) return {};
+  if (answer.form == Form::published) return published_counts(workload, answer.candidate);
   if (is_predicted(answer)) return answer.choice->best().counts;
   if (answer.estimator != sim::Estimator::disc || !model::has_closed_form(answer.candidate.technique)) return {};
   try {

@@ -11,7 +11,10 @@ namespace detp::cli {
 /// The counts of the choice come from a pilot. Of brute force it knows all but the hits.
 [[nodiscard]] bool is_predicted(const RunAnswer& answer);
 
-/// The counts that a pilot predicted, or else the closed form on this workload: the job's, or what is known of it without measuring. Nothing if the
+/// The paper has formulas for the technique's counts.
+[[nodiscard]] bool is_published(Technique technique);
+
+/// Those of the paper's formulas if they are requested. Else the counts that a pilot predicted, or else the closed form on this workload: the job's, or what is known of it without measuring. Nothing if the
 /// candidate has none, and of other estimators and runs until an error.
 [[nodiscard]] std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer);
 

@@ -269,6 +269,29 @@ std::string repeats_text(const Timing& timing) {
   return fmt::format("; median of {} runs, ± {:.1g} (half their range)", timing.all.size(), 0.5 * (*most - *least));
 }
 
+std::string over(double predicted, double counted) {
+  return fmt::format("{:.4g} counted, {:.4g} predicted ({:.2f})", counted, predicted, predicted / counted);
+}
+
+/// "formulas  T_R …; T_I …", for who asked for a form; empty without a prediction.
+std::string formulas_text(const validate::Job& job, const RunAnswer& answer) {
+  const auto predicted = prediction(job.workload(), answer);
+  if (!predicted || answer.run.outcome.stopped) return "";
+  const CostBreakdown expected = price(*predicted, UnitCosts{}, answer.candidate.technique);
+  const CostBreakdown found = price(as_expected(answer.run.outcome.counts), UnitCosts{}, answer.candidate.technique);
+  std::string text = fmt::format("formulas  {}, in tests: ", name(answer.form.value()));
+  if (found.rebuild > 0) text += fmt::format("T_R {}; ", over(expected.rebuild, found.rebuild));
+  if (found.traverse > 0) text += fmt::format("nodes {}; ", over(expected.traverse, found.traverse));
+  if (found.intersect > 0) text += fmt::format("T_I {}", over(expected.intersect, found.intersect));
+  const auto* cache = std::get_if<SphereCacheParameters>(&answer.candidate.parameters);
+  if (cache == nullptr) return text;
+  const std::int64_t own = own_spheres(job.workload(), *answer.form, {cache->ratio});
+  text += fmt::format("; k = {}", cache->spheres);
+  if (cache->spheres != own)
+    text += fmt::format("; by this form {} spheres can hold a disc, which detp model takes: --spheres {}", own, own);
+  return text;
+}
+
 std::string_view meaning(std::string_view term) {
   static const std::map<std::string_view, std::string_view> meanings{
       {"loaded", "rays brought into the search"},
@@ -427,6 +450,8 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
                   timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
                   repeats_text(timing)));
   add(whole_line(predicted_whole(job, answer, prediction(job.given, answer)), measured_whole(job, answer)));
+  if (answer.form)
+    if (const std::string formulas = formulas_text(job, answer); !formulas.empty()) add(formulas);
   if (const auto& seconds = answer.run.rank_seconds; !seconds.empty())
     add(fmt::format(
         "ranks     {} processes share the {}, {:.3g} to {:.3g} s each; the slowest took {:.2g} % more than the mean",

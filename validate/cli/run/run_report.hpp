@@ -51,6 +51,7 @@ struct RunAnswer {
   CostTable costs = {};                         ///< with which the candidate was chosen and its time predicted
   std::optional<validate::Choice> choice = {};  ///< by which the candidate was chosen, with its rays in memory
   Engine engine = Engine::simd;
+  std::optional<Form> form = {};  ///< requested: of the formulas that predict the counts
   TimedRun run = {};
   Timing timing = {};
   int repeat = 0;               ///< timed runs requested

@@ -20,6 +20,7 @@ std::string digest_of(const validate::Experiment& experiment) {
                              workload.dimension, workload.path_length, workload.ray_density, workload.hit_ratio})
     digest.add(value);
   for (const double side : workload.box) digest.add(side);
+  for (const double ratio : experiment.ratios) digest.add(ratio);
   validate::add(experiment.discs, digest);
   if (experiment.choice) validate::add(experiment.choice->rays, digest);
   return digest.text();
@@ -86,7 +87,7 @@ validate::FindingsUntil find_until(const validate::Experiment& experiment, const
                                  {"least lines", target.least_lines},
                                  {"most lines", target.most_lines},
                                  {"experiments", experiments},
-                                 {"digest of workload, discs and rays", digest_of(experiment)}});
+                                 {"digest of workload, ratios, discs and rays", digest_of(experiment)}});
   nlohmann::json saved;
   if (resume)
     if (auto state = file.read(stop)) saved = std::move(*state);

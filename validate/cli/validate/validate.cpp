@@ -3,6 +3,7 @@
 #include "detp/validate/claims/experiments.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
+#include "detp/validate/cli/options/value_lists.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/report/columns.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
@@ -35,6 +36,8 @@ struct ValidateOptions {
   std::optional<std::string> sweep_rows;
   UntilOptions until;
   std::vector<std::string> experiments;
+  std::vector<std::string> ratios;
+  std::optional<std::string> form;
 };
 
 /// Those that the option names, in their usual order; all without it. Throws std::invalid_argument for an unknown name.
@@ -48,6 +51,28 @@ std::vector<validate::ExperimentStep> steps_of(const ValidateOptions& options) {
     if (options.experiments.empty() || std::ranges::find(options.experiments, step.key) != options.experiments.end())
       steps.push_back(step);
   return steps;
+}
+
+/// Q of --ratio, each once. Throws std::invalid_argument unless each is between 0 and 1.
+std::vector<double> ratios_of(const ValidateOptions& options) {
+  std::vector<double> ratios;
+  for (const std::string& list : options.ratios)
+    for (const std::string& one : values_of("--ratio", list)) {
+      double ratio = 0;
+      read_value("--ratio", one, ratio);
+      if (!(ratio > 0 && ratio < 1))
+        throw std::invalid_argument(fmt::format("--ratio must be between 0 and 1 (got {})", one));
+      if (std::ranges::find(ratios, ratio) == ratios.end()) ratios.push_back(ratio);
+    }
+  return ratios;
+}
+
+/// Both forms are judged; those that --form does not name are not shown.
+std::vector<Claim> shown_of(const std::vector<Claim>& claims, const std::optional<std::string>& form) {
+  std::vector<Claim> shown;
+  std::ranges::copy_if(claims, std::back_inserter(shown),
+                       [&](const Claim& claim) { return !form || name(claim.form) == *form; });
+  return shown;
 }
 
 void add_effects(const std::vector<sim::EffectReport>& effects, Result& result) {
@@ -99,12 +124,14 @@ validate::Experiment scene_experiment(const validate::JobRequest& request, const
   return experiment;
 }
 
-validate::Experiment make_experiment(const validate::JobRequest& request, const CommonOptions& common,
-                                     const std::stop_token& stop, Result& result) {
+validate::Experiment make_experiment(const validate::JobRequest& request, const std::vector<double>& ratios,
+                                     const CommonOptions& common, const std::stop_token& stop, Result& result) {
   validate::Experiment experiment = request.numbers_alone() ? uniform_experiment(request, stop, result)
                                                             : scene_experiment(request, common, stop, result);
   experiment.seed = request.seed;
   experiment.ranks = common.ranks;
+  if (!ratios.empty()) experiment.ratios = ratios;
+  result.inputs["ratio"] = experiment.ratios;
   result.inputs["seed"] = request.seed;
   return experiment;
 }
@@ -140,7 +167,7 @@ Style style_of(Verdict verdict) {
   return verdict == Verdict::agrees ? Style::good : verdict == Verdict::refuted ? Style::bad : Style::doubtful;
 }
 
-std::string to_text(const std::vector<Claim>& claims, const Screen& screen) {
+std::string to_text(const std::vector<Claim>& shown, const std::vector<Claim>& claims, const Screen& screen) {
   TextTable table({{.head = "claim", .align = Align::left},
                    {.head = "predicted"},
                    {.head = "observed"},
@@ -150,7 +177,7 @@ std::string to_text(const std::vector<Claim>& claims, const Screen& screen) {
                    {.head = "detects", .spare = 1},
                    {.head = "verdict", .align = Align::left},
                    {.head = "control", .align = Align::left, .spare = 4}});
-  for (const Claim& claim : claims)
+  for (const Claim& claim : shown)
     table.add({{claim.id},
                {known_text(claim.predicted, "{:.5g}")},
                {known_text(claim.observed.mean, "{:.5g}")},
@@ -186,7 +213,8 @@ std::string quantities(const std::vector<Claim>& claims, const Screen& screen) {
   return text;
 }
 
-Table table_of(const std::vector<Claim>& claims, const validate::FindingsUntil& until, const Result& result) {
+Table table_of(const std::vector<Claim>& shown, const std::vector<Claim>& claims, const validate::FindingsUntil& until,
+               const Result& result) {
   Table table(workload_columns() +
               Columns{"id",
                       "quantity",
@@ -211,7 +239,7 @@ Table table_of(const std::vector<Claim>& claims, const validate::FindingsUntil& 
                       "more_seconds",
                       "share_bound"} +
               effect_columns() + sweep_columns());
-  for (const Claim& claim : claims) {
+  for (const Claim& claim : shown) {
     Json row = workload_cells(result.inputs);
     row.update(effect_cells(result.json["effects"]));
     row.update(claim_json(claim, claims));
@@ -265,12 +293,13 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   check_effort(options, options.workload.request(common, false));
   static_cast<void>(options.until.target());
   const std::vector<validate::ExperimentStep> steps = steps_of(options);
+  const std::vector<double> ratios = ratios_of(options);
   if (common.answers() && options.thorough)
     validate::check_checkpoint(points_of(options), sweep_options(options, common, stop));
   const ProgressLine progress(common.quiet);
   Result result;
   const validate::Experiment experiment =
-      make_experiment(options.workload.request(common, false), common, stop, result);
+      make_experiment(options.workload.request(common, false), ratios, common, stop, result);
   if (!common.answers()) {
     validate::serve_findings(experiment, steps);
     return {};
@@ -284,9 +313,11 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   else
     until.findings = validate::all_findings(experiment, report, &done, steps);
   const std::vector<Claim> claims = validate::judge_all(until.findings);
+  const std::vector<Claim> shown = shown_of(claims, options.form);
+  result.inputs["form"] = options.form ? Json(*options.form) : Json();
   result.json["summary"] = claim_summary_json(claims);
   result.json["claims"] = Json::array();
-  for (const Claim& claim : claims) {
+  for (const Claim& claim : shown) {
     result.json["claims"].push_back(claim_json(claim, claims));
     if (target) result.json["claims"].back().update(refinement_json(until, stem(claim)));
   }
@@ -297,8 +328,8 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   const Screen screen = common.screen();
   result.text = (claims.empty() ? "answer    no claim was judged\n" : summary_text(claims, screen)) + "\n" +
                 wrapped(result.text, screen.text_width(), 10) +
-                (claims.empty() ? "" : "\n" + to_text(claims, screen) + quantities(claims, screen));
-  Table table = table_of(claims, until, result);
+                (shown.empty() ? "" : "\n" + to_text(shown, claims, screen) + quantities(shown, screen));
+  Table table = table_of(shown, claims, until, result);
   if (options.thorough && !result.stopped) sweep(options, common, stop, progress, table, result);
   result.csv = table.csv();
   result.code = code_of(claims);
@@ -326,6 +357,12 @@ Command validate_command(CLI::App& program) {
          "a list of choice, effects, lines, sphere-cache, hierarchies, index, errors; choice and effects take a scene; "
          "default: all")
       ->delimiter(',');
+  app->add_option("--ratio", options->ratios,
+                  "Q of sphere caches: a list or a range, as 0.65 or 0.3:0.9:0.1; default: 0.3,0.5,0.65,0.8")
+      ->delimiter(',');
+  app->add_option("--form", options->form,
+                  "show published or corrected formulas alone (both are judged); default: both")
+      ->check(CLI::IsMember({"published", "corrected"}));
   app->add_option("--until-relative-error", options->until.relative_error,
                   "count until each observed value is known so well, as 1%; default: the usual number of lines");
   app->add_option("--confidence", options->until.confidence, "of all these errors together; default: 95%");

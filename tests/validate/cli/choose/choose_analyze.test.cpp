@@ -39,6 +39,7 @@ TEST_SUITE("end to end") {
       hits = found;
     }
     CHECK(json.at("regret").get<double>() == doctest::Approx(choice / fastest - 1));
+    CHECK((json.at("regret_error").get<double>() > 0) == (json.at("regret").get<double>() > 0));
     CHECK(json.at("tried") == run);
     for (const Technique technique : all_techniques)
       CHECK(techniques.contains(std::string(name(technique))) == record_of(technique).exact);
@@ -67,10 +68,11 @@ TEST_SUITE("end to end") {
       const std::string text = detp(line + detail).out;
       CHECK(text.starts_with("choice    "));  // the fastest of two runs may differ
       CHECK_FALSE(text.starts_with("choice    brute-force"));
-      for (const char* said :
-           {", the fastest of ", "\nregret    ", " %: brute-force, the predicted choice, takes",
-            ": the choice was wrong", "\npredicted ", " too low: counts right within 1 %, unit costs "})
+      for (const char* said : {", the fastest of ", "\nregret    ", ": brute-force, the predicted choice, takes",
+                               "\npredicted ", " too low: counts right within 1 %, unit costs "})
         CHECK_MESSAGE(text.find(said) != std::string::npos, said, text);
+      CHECK(text.find("within the noise") == std::string::npos);
+      CHECK(text.find("\ngain      testing every ray with every disc would take") != std::string::npos);
       CHECK((text.find("\nmissed    brute-force: predicted") != std::string::npos) == !detail.empty());
     }
     const std::string table = detp(line).out;

@@ -57,6 +57,30 @@ TEST_SUITE("end to end") {
     }
   }
 
+  TEST_CASE(
+      "help fits on a screen: at most 40 lines of 80 columns, every option it names is one, and its examples run") {
+    for (const std::string name :
+         {"model", "choose", "run", "validate", "scene", "bench", "calibrate", "accuracy", "report"}) {
+      CAPTURE(name);
+      const std::string help = detp(name + " --help").out;
+      const std::string all = detp(name + " --help all").out;
+      CHECK(all == detp("help " + name + " all").out);
+      CHECK(std::count(help.begin(), help.end(), '\n') <= 40);
+      std::istringstream lines(help);
+      for (std::string line; std::getline(lines, line);) CHECK_MESSAGE(line.size() <= 80, line);
+      const std::regex option("--[a-z][a-z-]*");
+      for (auto found = std::sregex_iterator(help.begin(), help.end(), option); found != std::sregex_iterator();
+           ++found) {
+        if (found->str() == "--help") continue;
+        CHECK_MESSAGE(std::regex_search(all, std::regex("\n  (-[a-z],)?" + found->str() + "[ ,\n]")), found->str());
+      }
+      CHECK(help.find("All options: detp " + name + " --help all\n") != std::string::npos);
+      if (all.find("\n  --ray-file ") != std::string::npos)
+        CHECK(all.find("rays   ox,oy,oz,dx,dy,dz") != std::string::npos);
+    }
+    CHECK(detp("--help all").code == 0);
+  }
+
   TEST_CASE("detp alone shows every command, a line each, and an example that works") {
     const Finished alone = detp("");
     CHECK(alone.code == 0);
@@ -72,8 +96,8 @@ TEST_SUITE("end to end") {
 
   TEST_CASE("the help of --technique and its parameters says what run and model do without them") {
     const auto one_line = [](const std::string& help) { return std::regex_replace(help, std::regex("\\s+"), " "); };
-    const std::string run = one_line(detp("help run").out);
-    const std::string model = one_line(detp("help model").out);
+    const std::string run = one_line(detp("help run all").out);
+    const std::string model = one_line(detp("help model all").out);
     CHECK(run.find("default: chosen by a pilot; for short searches by the numbers of rays and discs") !=
           std::string::npos);
     CHECK(run.find("the fastest by the model") == std::string::npos);
@@ -109,7 +133,7 @@ TEST_SUITE("end to end") {
     const std::regex takes_value("^  (-[a-z],)?(--[a-z-]+) [A-Z]");
     for (const std::string name : {"model", "choose", "run", "validate", "scene", "bench"}) {
       CAPTURE(name);
-      std::istringstream lines(detp("help " + name).out);
+      std::istringstream lines(detp("help " + name + " all").out);
       std::vector<std::string> options;
       for (std::string line; std::getline(lines, line);)
         if (line.starts_with("  -"))
