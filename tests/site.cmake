@@ -1,4 +1,4 @@
-# Builds the site, which ends with an error for links that lead nowhere, and runs the commands of its own pages. Called with -D SOURCE=<project>,
+# Builds the site, which ends with an error for links that lead nowhere, and runs the commands of its own pages and of README.md. Called with -D SOURCE=<project>,
 # -D BUILD=<build tree>.
 cmake_policy(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/debian_python.cmake)
@@ -10,4 +10,4 @@ if(NOT doxygen)
 endif()
 execute_process(COMMAND ${python} ${SOURCE}/validate/site/build.py ${BUILD} COMMAND_ERROR_IS_FATAL ANY)
 file(GLOB pages ${SOURCE}/validate/site/*.md ${SOURCE}/validate/site/tutorials/*.md)
-execute_process(COMMAND ${python} ${CMAKE_CURRENT_LIST_DIR}/site_commands.py ${BUILD} ${pages} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${python} ${CMAKE_CURRENT_LIST_DIR}/site_commands.py ${BUILD} ${SOURCE}/README.md ${pages} COMMAND_ERROR_IS_FATAL ANY)

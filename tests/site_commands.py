@@ -2,7 +2,7 @@
 """Runs the commands of the site's own pages: site_commands.py FOLDER-OF-DETP PAGE…
 
 A command must succeed, and each line of output that the page quotes must begin with the first word of a line that it prints. (Times differ from
-machine to machine.)
+machine to machine.) The commands of a page run one after another in one folder, so that files of one are there for the next.
 """
 
 import os
@@ -25,9 +25,8 @@ def commands(page: Path) -> "list[tuple[str, list[str]]]":
     return found
 
 
-def complaint(environment: "dict[str, str]", page: str, command: str, quoted: "list[str]") -> str:
-    with tempfile.TemporaryDirectory() as place:
-        ran = subprocess.run(command, shell=True, cwd=place, env=environment, capture_output=True, text=True)
+def complaint(environment: "dict[str, str]", place: str, page: str, command: str, quoted: "list[str]") -> str:
+    ran = subprocess.run(command, shell=True, cwd=place, env=environment, capture_output=True, text=True)
     begins = {line.split()[0] for line in ran.stdout.splitlines() if line.strip()}
     missing = [line for line in quoted if line.split()[0] not in begins]
     if ran.returncode == 0 and not missing:
@@ -38,12 +37,17 @@ def complaint(environment: "dict[str, str]", page: str, command: str, quoted: "l
 def main() -> int:
     folder, *pages = map(Path, sys.argv[1:])
     environment = {**os.environ, "XDG_CACHE_HOME": "/dev/null", "PATH": f"{folder.resolve()}:{os.environ['PATH']}"}
-    all_commands = [(page.name, *one) for page in pages for one in commands(page.resolve())]
+
+    def complaints_of(page: Path) -> "list[str]":
+        with tempfile.TemporaryDirectory() as place:
+            return [complaint(environment, place, page.name, *one) for one in commands(page.resolve())]
+
     with ThreadPoolExecutor(2) as workers:
-        complaints = [text for text in workers.map(lambda one: complaint(environment, *one), all_commands) if text]
+        answers = [text for all_of_page in workers.map(complaints_of, pages) for text in all_of_page]
+    complaints = [text for text in answers if text]
     print("\n".join(complaints), file=sys.stderr)
-    print(f"{len(all_commands)} commands, {len(complaints)} wrong")
-    return 1 if complaints or not all_commands else 0
+    print(f"{len(answers)} commands, {len(complaints)} wrong")
+    return 1 if complaints or not answers else 0
 
 
 sys.exit(main())

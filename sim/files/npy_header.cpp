@@ -15,7 +15,7 @@ namespace detp::sim {
 namespace {
 
 constexpr std::string_view magic = "\x93NUMPY";
-constexpr std::size_t longest = std::size_t{1} << 20;
+constexpr std::size_t longest_header = std::size_t{1} << 20;
 constexpr std::size_t alignment = 64;  ///< of the first row in the file
 
 /// Reads the literal of a Python dictionary that describes the array.
@@ -194,7 +194,7 @@ NpyHeader read_npy_header(InputFile& file) {
   if (!file.fetch(before_length + of_length)) throw FileError(file.path(), "ends in its header");
   std::size_t length = 0;
   for (std::size_t i = of_length; i > 0; --i) length = 256 * length + byte(before_length + i - 1);
-  if (length > longest) throw FileError(file.path(), fmt::format("has a header of {} bytes", length));
+  if (length > longest_header) throw FileError(file.path(), fmt::format("has a header of {} bytes", length));
   file.skip(before_length + of_length);
   if (!file.fetch(length)) throw FileError(file.path(), "ends in its header");
   NpyHeader header = Description(file.buffered().substr(0, length), file.path()).read();

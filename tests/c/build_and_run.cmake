@@ -37,7 +37,6 @@ set(ENV{PKG_CONFIG_PATH} ${package_folder})
 execute_process(COMMAND ${PKG_CONFIG} --cflags --libs detp-c OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY
                 OUTPUT_STRIP_TRAILING_WHITESPACE)
 separate_arguments(flags UNIX_COMMAND "${flags}")
-set(ENV{LD_LIBRARY_PATH} ${folder})
 foreach(compiler gcc clang-14)
   find_program(${compiler}_program ${compiler})
   if(NOT ${compiler}_program)

@@ -25,7 +25,7 @@ namespace detp::validate {
 namespace {
 
 constexpr double seconds_of_probe = 0.2;
-constexpr int least_rounds = 3;
+constexpr int rounds_of_probe = 3;
 
 /// ln(measured over predicted seconds), of some searches.
 struct Ratios {
@@ -77,9 +77,9 @@ class Probe {
     constexpr std::array large{Technique::box_tree};  // the technique of most answers
     add({sim::Body::cube_faces, 40'000, 40'000, 0.0025}, 6, large);
     // In rounds: a processor that is fast or slow for some milliseconds is so for one of them.
-    for (int round = 0; round < least_rounds || !is_over(); ++round)
+    for (int round = 0; round < rounds_of_probe || !is_over(); ++round)
       for (Timed& one : timed_)
-        if (!stop_.stop_requested() && (round < least_rounds || !is_over())) time(one, round);
+        if (!stop_.stop_requested() && (round < rounds_of_probe || !is_over())) time(one, round);
     for (const Timed& one : timed_) learn(one);
     Calibration found;
     found.probe = true;

@@ -166,8 +166,11 @@ class Analyser {
     const auto begin = [](int /*round*/) { return true; };
     in_turns(all_.candidates.size(), options_.repeats, begin, [&](std::size_t i, int round) {
       Analysed& one = all_.candidates[i];
-      const bool behind = one.counted && first_seconds_[i] > options_.far_behind * fastest_;
-      if (!one.counted || (behind && round > 0)) return true;
+      if (!one.counted) return true;
+      // The counting run alone may have been disturbed, above all the first of all. The choice is always timed as often.
+      const double least = seconds[i].empty() ? first_seconds_[i] : std::min(first_seconds_[i], seconds[i].front());
+      const bool behind = i > 0 && least > options_.far_behind * fastest_;
+      if (behind && round > 0) return true;
       if (options_.stop.stop_requested()) return false;
       remaining -= first_seconds_[i];
       report(i, first_seconds_[i], std::max(0.0, remaining));

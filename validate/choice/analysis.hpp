@@ -38,10 +38,11 @@ struct Analysis {
 };
 
 struct AnalysisOptions {
-  int repeats = 5;          ///< timed runs of each candidate that is not far behind
-  double patience = 5;      ///< a run is abandoned after this many times the shortest time so far, but at least 20 ms
-  double far_behind = 2;    ///< a candidate that takes more than this many times the shortest time is timed only once
-  std::size_t leaders = 2;  ///< number of fastest candidates whose neighbours are tried
+  int repeats = 5;      ///< timed runs of each candidate that is not far behind
+  double patience = 5;  ///< a run is abandoned after this many times the shortest time so far, but at least 20 ms
+  double far_behind =
+      2;  ///< a candidate, not the choice, that takes more than this many times the shortest time is timed only once
+  std::size_t leaders = 2;               ///< number of fastest candidates whose neighbours are tried
   std::vector<Technique> disabled = {};  ///< techniques that are not added to the ranked ones
   Engine engine = Engine::simd;          ///< of all runs
   double check_seconds = 0;              ///< of checking rays and discs: a part of each run

@@ -43,10 +43,11 @@ std::string accuracy_card(const ReportJson& answer) {
   if (interval.size() == 2)
     rest =
         fmt::format("{} to {}; ", seconds_label(interval[0].get<double>()), seconds_label(interval[1].get<double>()));
-  if (const auto photons = number(accuracy, "photons")) rest += count_words(*photons) + " photon paths; ";
+  if (const auto photons = number(accuracy, "photons"); photons && *photons > 0)
+    rest += count_words(*photons) + " photon paths; ";
   rest += words(accuracy, "estimator");
   if (const ReportJson& error = list(accuracy, "error_interval"); error.size() == 2)
-    rest += fmt::format("; with the bias {} to {}", percent_label(error[0].get<double>()),
+    rest += fmt::format("; total error (noise and bias) {} to {}, 95 %", percent_label(error[0].get<double>()),
                         percent_label(error[1].get<double>()));
   if (accuracy.value("reached", true)) return card(fmt::format("{} costs", target), seconds_label(*seconds), rest);
   return card(fmt::format("{} is out of reach; nearest", target),

@@ -48,9 +48,14 @@ std::string nearest_words(const ReportJson& choice) {
         "Of the techniques that were ruled out by prediction, {} would come nearest: at best {:.2g} times as long. ",
         nearest, *least / *best);
   std::string skipped;
+  const auto is_measured = [&](const ReportJson& technique) {
+    return std::ranges::any_of(list(choice, "candidates"), [&](const ReportJson& one) {
+      return words(one, "technique") == technique && number(one, "measured_seconds");
+    });
+  };
   for (const ReportJson& one : list(choice, "not_examined"))
-    if (one.is_string()) skipped += (skipped.empty() ? "" : ", ") + one.get<std::string>();
-  if (!skipped.empty()) text += fmt::format("Not examined, to save time: {}.", skipped);
+    if (one.is_string() && !is_measured(one)) skipped += (skipped.empty() ? "" : ", ") + one.get<std::string>();
+  if (!skipped.empty()) text += fmt::format("Not examined by the prediction, to save time: {}.", skipped);
   return text;
 }
 
