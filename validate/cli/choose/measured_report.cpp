@@ -116,6 +116,11 @@ void add_measured(Json& json, const validate::Analysis& analysis, const validate
 
 namespace {
 
+/// 0.123 as "12".
+std::string percent_digits(double share) {
+  return share < 0.095 ? fmt::format("{:.1g}", 100 * share) : fmt::format("{:.0f}", 100 * share);
+}
+
 /// The line "regret": whether the predicted choice was the right one.
 std::string regret_line(const validate::Analysis& analysis) {
   const validate::Analysed& predicted = analysis.candidates.front();
@@ -124,9 +129,8 @@ std::string regret_line(const validate::Analysis& analysis) {
   if (!analysis.regret) return "";
   const double regret = *analysis.regret;
   const double error = analysis.regret_error;
-  return fmt::format("regret    {:.2g} %{}: {}, the predicted choice, takes {:.3g} s{}", 100 * regret,
-                     error > 0 ? fmt::format(" ± {:.1g}", 100 * error) : "", title(predicted.candidate),
-                     *predicted.seconds,
+  return fmt::format("regret    {}{} %: {}, the predicted choice, takes {:.3g} s{}", percent_digits(regret),
+                     error > 0 ? " ± " + percent_digits(error) : "", title(predicted.candidate), *predicted.seconds,
                      regret <= error || regret < 0.01 ? ": as fast, within the noise of the timed runs" : "");
 }
 
