@@ -18,7 +18,7 @@ struct ProcessorCache {
 ///     between      sphere cache if the rays of S_k fit the processor's cache, else index of discs
 ///
 /// Source     sections 5 and 3; the paper took the limits of X from measurements of one scene in 2006.
-/// Accuracy   refuted on 117 workloads on a machine of today (validate/tools/zones_study): with X <= 2 the sphere cache is as fast or
+/// Accuracy   refuted on 117 workloads on a machine of today (notebooks-data/zones.csv): with X <= 2 the sphere cache is as fast or
 ///            faster, with X >= 6 the index; the number of rays decides more than X. The rule takes 2.1 to 3.2 times as long as
 ///            the faster of both.
 /// Throws     std::invalid_argument for a workload or cache out of range.

@@ -45,7 +45,7 @@ struct EvidenceEffort {
 };
 
 /// Whether evidence can pay for one search with so many rays and discs: a search of 30 ms or more, by the rough times of
-/// EvidenceEffort::for_search. On ordinary scenes, choices by closed forms lose nothing without effects (validate/tools/effects_study).
+/// EvidenceEffort::for_search. On ordinary scenes, choices by closed forms lose nothing without effects (notebooks-data/studies/effects).
 [[nodiscard]] bool evidence_can_pay(double rays, double discs);
 
 /// What effects are looked for in, and what they share of it. Everything is measured on first use; not for use from

@@ -55,7 +55,8 @@ PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_
       wanted_(count),
       most_kept_(counting == Counting::ahead ? most_kept_bytes() : 2.0 * bytes_of_ray * first_known),
       origins_(origins_of(scene)),
-      known_(new Known{.rounds = PhotonRounds(scene.name, count, most_in_a_round), .count = count}) {
+      known_(new Known{
+          .rounds = PhotonRounds(scene.name, count, most_in_a_round), .kept = {}, .ledgers = {}, .count = count}) {
   const DefaultFloatingPoint mode;
   require_memory(fmt::format("numbers of {} rays", count), 16.0 * static_cast<double>(count) / group_size);
   known_->all = count == 0;

@@ -120,7 +120,7 @@ std::vector<AxisPoint> arithmetic_axis(const AxisOptions& options) {
                         .setting = fmt::format("{}, {} scene", arithmetic, scene.name),
                         .quantity = "decisions of hits",
                         .error = wrong / hits,
-                        .interval = Interval{std::max(0.0, wrong - half) / hits, (wrong + half) / hits},
+                        .interval = AxisInterval{std::max(0.0, wrong - half) / hits, (wrong + half) / hits},
                         .seconds = seconds,
                         .work = pairs});
     };

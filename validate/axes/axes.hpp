@@ -13,7 +13,7 @@
 /// Errors against what they cost in time.
 namespace detp::validate {
 
-struct Interval {
+struct AxisInterval {
   double low = 0;
   double high = 0;
 };
@@ -25,7 +25,7 @@ struct AxisPoint {
   std::string quantity;  ///< whose relative error this is
   double error = 0;
   /// Of the error, 95 %; nothing where it is not known, or where the error is 0 by definition.
-  std::optional<Interval> interval = {};
+  std::optional<AxisInterval> interval = {};
   double seconds = 0;  ///< measured
   double work = 0;     ///< lines, pairs or rays
 

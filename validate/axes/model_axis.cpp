@@ -28,7 +28,7 @@ AxisPoint compared(std::string setting, std::string quantity, double predicted, 
   AxisPoint point{.axis = "model", .setting = std::move(setting), .quantity = std::move(quantity)};
   point.error = std::abs(predicted / found - 1);
   const double half = 2 * predicted_error / found;
-  if (half > 0) point.interval = Interval{std::max(0.0, point.error - half), point.error + half};
+  if (half > 0) point.interval = AxisInterval{std::max(0.0, point.error - half), point.error + half};
   return point;
 }
 

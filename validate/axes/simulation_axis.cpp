@@ -91,7 +91,7 @@ AxisPoint measured(const Way& way, std::uint32_t count, std::span<const sim::Dis
           .setting = fmt::format("{}, {} lines", way.name, count),
           .quantity = "probability that a line hits a disc",
           .error = std::sqrt(mean.mean),
-          .interval = Interval{std::sqrt(std::max(0.0, mean.mean - half)), std::sqrt(mean.mean + half)},
+          .interval = AxisInterval{std::sqrt(std::max(0.0, mean.mean - half)), std::sqrt(mean.mean + half)},
           .seconds = watch.seconds() / replicates,
           .work = static_cast<double>(count)};
 }

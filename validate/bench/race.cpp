@@ -7,9 +7,9 @@
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/validate/base/in_turns.hpp"
-#include "detp/validate/base/own_time.hpp"
 #include "detp/validate/choice/pilot.hpp"
+#include "detp/validate/measure/in_turns.hpp"
+#include "detp/validate/measure/own_time.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
 namespace detp::validate {

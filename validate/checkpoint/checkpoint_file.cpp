@@ -13,13 +13,15 @@
 namespace detp::validate {
 namespace {
 
-constexpr std::string_view schema = "detp.checkpoint";
-constexpr std::size_t most_bytes = std::size_t{1} << 32;
+constexpr std::string_view checkpoint_schema = "detp.checkpoint";
+constexpr std::size_t most_checkpoint_bytes = std::size_t{1} << 32;
 constexpr double times_cheaper = 100;
 constexpr double first_seconds = 0.1;
 
 /// Each file of this version begins so.
-std::string head() { return fmt::format(R"({{"schema":{{"name":"{}","version":{}}},)", schema, checkpoint_version); }
+std::string head() {
+  return fmt::format(R"({{"schema":{{"name":"{}","version":{}}},)", checkpoint_schema, checkpoint_version);
+}
 
 std::string words(const nlohmann::json& value) {
   return value.is_string() ? detp::quoted(value.get<std::string>()) : value.dump();
@@ -50,8 +52,8 @@ std::optional<nlohmann::json> CheckpointFile::read(std::stop_token stop) const {
   std::error_code unknown;  // other errors appear when the file is read
   if (!std::filesystem::exists(path_, unknown) && !unknown) return std::nullopt;
   try {
-    nlohmann::json json = nlohmann::json::parse(sim::read_file(path_.string(), most_bytes, std::move(stop)));
-    if (json.at("schema").at("name") != schema || json.at("schema").at("version") != checkpoint_version)
+    nlohmann::json json = nlohmann::json::parse(sim::read_file(path_.string(), most_checkpoint_bytes, std::move(stop)));
+    if (json.at("schema").at("name") != checkpoint_schema || json.at("schema").at("version") != checkpoint_version)
       throw sim::FileError(path_.string(), "is not a checkpoint of this version of detp");
     if (json.at("checksum") != checksum(json.at("work"), json.at("key"), json.at("state")))
       throw damaged("it was altered, and does not fit its checksum");

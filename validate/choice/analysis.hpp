@@ -38,11 +38,8 @@ struct Analysis {
 };
 
 struct AnalysisOptions {
-  int repeats = 5;      ///< timed runs of each candidate that is not far behind
-  double patience = 5;  ///< a run is abandoned after this many times the shortest time so far, but at least 20 ms
-  double far_behind =
-      2;  ///< a candidate, not the choice, that takes more than this many times the shortest time is timed only once
-  std::size_t leaders = 2;               ///< number of fastest candidates whose neighbours are tried
+  int repeats = 5;      ///< rounds of timed runs, at least (ExhaustiveOptions)
+  double patience = 5;  ///< a first run is abandoned after this many times the shortest time so far, but at least 20 ms
   std::vector<Technique> disabled = {};  ///< techniques that are not added to the ranked ones
   Engine engine = Engine::simd;          ///< of all runs
   double check_seconds = 0;              ///< of checking rays and discs: a part of each run
@@ -54,11 +51,9 @@ struct AnalysisOptions {
   sim::ReportPhase progress = {};
 };
 
-/// First runs each candidate once and counts: the ranked candidates, the exact techniques that were not ranked, and
-/// neighbours of the fastest candidates. Then times each finished candidate in `repeats` runs without counting. The
-/// candidates take turns, so that a disturbance of the machine affects all alike. A candidate that is predicted to be
-/// slow is started too. It is abandoned after `patience` times the shortest time so far. The predicted choice is never
-/// abandoned.
+/// Measures the ranked candidates, the exact techniques that were not ranked, and neighbours of the two fastest (measure_all). What is predicted to be
+/// slow is started too, and abandoned after `patience` times the shortest time so far; the predicted choice never.
+/// Ranked candidates are judged by times by which the fastest was not selected.
 [[nodiscard]] Analysis analyse(const sim::Problem& problem, const std::vector<Prediction>& ranking,
                                const AnalysisOptions& options = {});
 

@@ -33,7 +33,7 @@ std::optional<CountedSearch> count_search(const Experiment& experiment, const Ca
     const sim::Problem problem = sim::make_problem(some, experiment.discs, question.workload.front_facing);
     const sim::Outcome outcome = sim::run(problem, candidate, {.stop = experiment.stop});
     if (outcome.stopped) stopped = true;
-    return RayBatch{static_cast<double>(some.size()), as_expected(outcome.counts)};
+    return CountedBatch{static_cast<double>(some.size()), as_expected(outcome.counts)};
   };
   CountedSearch counted{.all = counts_of(rays)};
   for (const std::vector<sim::Ray>& batch : distribute_over_batches(rays)) counted.batches.push_back(counts_of(batch));
@@ -47,7 +47,7 @@ Estimate observed_in(const CountedSearch& counted, const std::function<double(co
   Estimate estimate{scale * value(counted.all.counts), std::numeric_limits<double>::infinity()};
   if (counted.batches.size() < 2) return estimate;
   std::vector<double> parts;
-  for (const RayBatch& batch : counted.batches) parts.push_back(rays / batch.rays * value(batch.counts));
+  for (const CountedBatch& batch : counted.batches) parts.push_back(rays / batch.rays * value(batch.counts));
   estimate.standard_error = std::max(batch_means(parts).standard_error, std::sqrt(scale * predicted));
   return estimate;
 }

@@ -9,15 +9,15 @@
 /// Counts of searches of the rays for which a choice is made.
 namespace detp::validate {
 
-struct RayBatch {
+struct CountedBatch {
   double rays = 0;
   Counts<double> counts;
 };
 
 /// The counts of some of the rays, and of parts of these.
 struct CountedSearch {
-  RayBatch all;
-  std::vector<RayBatch> batches = {};  ///< at most batch_count, each with rays from everywhere
+  CountedBatch all;
+  std::vector<CountedBatch> batches = {};  ///< at most batch_count, each with rays from everywhere
 };
 
 /// Searches this share of the rays of experiment.choice, which must be set: first all of them at once, then in parts.

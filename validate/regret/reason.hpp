@@ -3,7 +3,7 @@
 #include <string>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
-#include "exhaustive.hpp"
+#include "detp/validate/measure/measure_all.hpp"
 
 /// Why a choice was not the best.
 namespace detp::validate {

@@ -8,7 +8,7 @@
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/validate/base/own_time.hpp"
+#include "detp/validate/measure/own_time.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "reason.hpp"
 

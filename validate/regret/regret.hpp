@@ -9,7 +9,7 @@
 
 #include "baselines.hpp"
 #include "choosers.hpp"
-#include "exhaustive.hpp"
+#include "detp/validate/measure/measure_all.hpp"
 #include "regret_workloads.hpp"
 
 /// Measures the regret of choices: the time of what was chosen over the time of the best of all candidates.

@@ -72,7 +72,7 @@ TEST_SUITE("identity") {
     const Scene scene(50'000, 60'000);  // 3·10⁹ tests by brute force
     auto ranking = scene.wrong_ranking();
     std::reverse(ranking.begin(), ranking.end());
-    const Analysis analysis = analyse(scene.problem(), ranking, {.repeats = 1, .leaders = 0});
+    const Analysis analysis = analyse(scene.problem(), ranking, {.repeats = 1});
     const auto brute_force =
         std::find_if(analysis.candidates.begin(), analysis.candidates.end(),
                      [](const Analysed& one) { return one.candidate.technique == Technique::brute_force; });

@@ -7,8 +7,8 @@
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/choice/pilot.hpp"
 #include "detp/validate/job/job.hpp"
-#include "detp/validate/tools/pilot_errors/sparse_scenes.hpp"
 #include "support/scratch_file.hpp"
+#include "support/sparse_scenes.hpp"
 
 using namespace detp;
 
@@ -60,8 +60,8 @@ TEST_SUITE("known answer") {
       "where few rays reach the discs, nine of ten counts are within two stated errors, and no wrong count is exact") {
     Coverage coverage;
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-      search_sparse(study::tiny_object(seed), seed, coverage);
-      search_sparse(study::furnished_floor(seed), seed, coverage);
+      search_sparse(support::tiny_object(seed), seed, coverage);
+      search_sparse(support::furnished_floor(seed), seed, coverage);
     }
     CHECK(coverage.all == 96);
     CHECK(coverage.inside >= 0.9 * coverage.all);
@@ -73,7 +73,7 @@ TEST_SUITE("known answer") {
     int larger = 0;
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       validate::JobRequest request;
-      request.scene = folder.file("scene.obj", study::tiny_object(seed));
+      request.scene = folder.file("scene.obj", support::tiny_object(seed));
       request.rays = 40'000;
       request.disc_radius = validate::Length{0.02, true};
       request.effects = sim::EffectSelection("none");

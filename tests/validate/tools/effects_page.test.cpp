@@ -39,6 +39,8 @@ OfSelection selected(const std::string& selection) {
   return all;
 }
 
+std::string effects_page() { return source_text(std::string("notebooks-data/studies/") + "effects.md"); }
+
 /// Percent by which the geometric mean is above 1: "1.2".
 std::string percent_above(const std::vector<double>& ratios) {
   return fmt::format("{:.1f}", 100 * (geometric_mean(ratios) - 1));
@@ -48,7 +50,7 @@ std::string percent_above(const std::vector<double>& ratios) {
 
 TEST_SUITE("figures") {
   TEST_CASE("the page of the effects' study has the figures of effects_families.csv") {
-    const std::string page = source_text("validate/tools/effects_study/README.md");
+    const std::string page = effects_page();
     for (const std::string selection : {"auto", "all", "none"}) {
       const OfSelection found = selected(selection);
       const auto worst = [](const std::vector<double>& values) { return *std::ranges::max_element(values); };
@@ -90,7 +92,7 @@ TEST_SUITE("figures") {
       with.push_back(1 + number(row, "regret_auto"));
       without.push_back(1 + number(row, "regret_none"));
     }
-    check_says(source_text("validate/tools/effects_study/README.md"),
+    check_says(effects_page(),
                fmt::format("loses {} % without, {} % with", percent_above(without), percent_above(with)));
   }
 }

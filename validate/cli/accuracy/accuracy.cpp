@@ -13,6 +13,7 @@
 #include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/disc_file.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/photons/light_notes.hpp"
@@ -370,6 +371,8 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
   answer.in_time =
       validate::plan_accuracy(answer.pilot, {validate::AccuracyTarget::Kind::seconds, 2 * best.seconds}, most_rays)
           .answer;
+  answer.most_rays = most_rays;
+  answer.threads = sim::useful_threads(common.threads);
   answer.whole = {.triangles = static_cast<double>(scene.mesh.triangles.size()),
                   .discs = static_cast<double>(scene.samples.size()),
                   .rays = best.rays,

@@ -25,6 +25,8 @@ struct AccuracyAnswer {
   std::vector<validate::AxisPoint> axes;  ///< other than estimators
   validate::AccuracyPoint in_time;        ///< the best way in twice the answer's time
   double seconds = 0;                     ///< that the pilots and the check took
+  double most_rays = 1e9;                 ///< of --rays
+  int threads = 1;                        ///< that a run uses
   sim::PolygonCounts polygons = {};       ///< of the scene's mesh
   std::uint64_t normals_made = 0;
   std::uint64_t coincident = 0;

@@ -28,6 +28,13 @@ Json interval_json(const validate::AxisPoint& point) {
   return point.interval ? Json{point.interval->low, point.interval->high} : Json();
 }
 
+/// The point is what was run once.
+bool is_checked(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  const AccuracyPoint& run = answer.checked;
+  return answer.check && point.estimator == run.estimator && point.rays == run.rays && point.radius == run.radius &&
+         point.nearest == run.nearest;
+}
+
 Json point_json(const AccuracyAnswer& answer, const AccuracyPoint& point) {
   return {{"axis", "estimator"},
           {"estimator", name(point.estimator)},
@@ -51,10 +58,10 @@ Json point_json(const AccuracyAnswer& answer, const AccuracyPoint& point) {
           {"slope", point.slope},
           {"slope_interval", {point.slope_low, point.slope_high}},
           {"predicted_seconds", point.seconds},
-          {"measured_seconds", nullptr},
-          {"processor_seconds", nullptr},
+          {"measured_seconds", is_checked(answer, point) ? Json(answer.check->seconds) : Json()},
+          {"processor_seconds", point.seconds * answer.threads},  // predicted
           {"on_frontier", point.on_frontier},
-          {"cut_off", false}};
+          {"cut_off", !gathers(point) && point.rays >= answer.most_rays}};
 }
 
 Json reference_json(const AccuracyAnswer& answer) {

@@ -27,6 +27,10 @@ TEST_SUITE("accuracy") {
     CHECK(answer["error_interval"][0].get<double>() <= answer["error"].get<double>());
     CHECK(answer["measured_seconds"].get<double>() > 0);
     CHECK(json["points"].size() > 6);
+    for (const Json& point : json["points"]) {
+      CHECK(point["processor_seconds"].get<double>() >= point["predicted_seconds"].get<double>());
+      CHECK(point["cut_off"] == (point["estimator"] != "gather" && point["rays"].get<double>() >= 1e9));
+    }
     CHECK(json["stopped"] == false);
     const std::string command = answer["command"];
     REQUIRE(command.starts_with("detp run @cornell --rays "));

@@ -1,0 +1,33 @@
+# No library defines two types of one name: the linker would join their functions, whatever their layout. Looks at
+# definitions at the beginning of a line outside of unnamed namespaces. Called with -D SOURCE=<top of the project>.
+cmake_policy(VERSION 3.25)
+foreach(part model sim validate)
+  file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/${part}/*.hpp ${SOURCE}/${part}/*.cpp)
+  list(FILTER files EXCLUDE REGEX "^validate/tools/")  # programs
+  set(count 0)
+  foreach(file ${files})
+    file(STRINGS ${SOURCE}/${file} lines REGEX "^(namespace [^=]*{|}  // namespace|(struct|class|enum|enum class) [A-Za-z_0-9]+.*{)")
+    set(within)
+    foreach(line IN LISTS lines)
+      if(line MATCHES "^namespace *([A-Za-z_0-9:]*)")
+        list(APPEND within "${CMAKE_MATCH_1}{")  # "{" alone: unnamed
+      elseif(line MATCHES "^}")
+        list(POP_BACK within)
+      elseif(NOT "{" IN_LIST within AND NOT line MATCHES "^[a-z ]+ [A-Za-z_0-9]+(::|<)")  # neither nested nor a specialization
+        string(REGEX REPLACE "^(struct|class|enum class|enum) ([A-Za-z_0-9]+).*" "\\2" type "${line}")
+        string(JOIN "" name ${within} "${type}")
+        string(REPLACE "{" "::" name "${name}")
+        string(MAKE_C_IDENTIFIER "${part} ${name}" key)
+        if(DEFINED ${key})
+          message(SEND_ERROR "${part} has two types ${name}: ${${key}} and ${file}")
+        endif()
+        set(${key} ${file})
+        math(EXPR count "${count} + 1")
+      endif()
+    endforeach()
+  endforeach()
+  if(count EQUAL 0)
+    message(FATAL_ERROR "${part} has no types: is SOURCE right?")
+  endif()
+  message("${part}: ${count} types")
+endforeach()

@@ -1,0 +1,112 @@
+#include "detp/validate/measure/measure_all.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "detp/sim/open/uniform_discs.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/validate/measure/neighbours.hpp"
+
+using namespace detp;
+using namespace detp::validate;
+
+namespace {
+
+const Candidate small_grid{Technique::grid, GridParameters{4}};
+const Candidate box_tree_4_16{Technique::box_tree, BoxTreeParameters{4, 16}};
+
+Timed timed(const Candidate& candidate, std::vector<double> selecting, std::vector<double> judging) {
+  return {.contender = {candidate}, .selecting = std::move(selecting), .judging = std::move(judging)};
+}
+
+/// The fastest by its first time: its neighbours must have been run.
+Contender leader_of(const Exhaustive& found) {
+  const auto seconds = [](const Timed& one) { return one.abandoned ? HUGE_VAL : one.first_seconds; };
+  return std::min_element(found.candidates.begin(), found.candidates.end(),
+                          [&](const Timed& a, const Timed& b) { return seconds(a) < seconds(b); })
+      ->contender;
+}
+
+struct SmallProblem {
+  std::vector<sim::Disc> discs = sim::uniform_discs(sim::Body::cube, 1, 200, 0.05, 1);
+  std::vector<sim::Ray> rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 100);
+  sim::Problem problem = sim::make_problem(rays, discs);
+};
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("the best is the fastest on the selecting half, even if another is faster on the judging half") {
+    const std::vector<Timed> candidates{timed(box_tree_4_16, {3, 5, 6}, {1, 1}), timed(small_grid, {4, 2, 5}, {9, 7}),
+                                        timed(default_candidate(Technique::bvh), {}, {0.5})};
+    const auto best = fastest_selected(candidates);
+    REQUIRE(best);
+    CHECK(*best == 1);
+    CHECK(candidates[*best].judging_seconds() == 8);
+    CHECK(candidates[*best].judged_ratio(candidates[0]) == 8);
+    CHECK_FALSE(fastest_selected({}));
+    CHECK_FALSE(fastest_selected(std::span(candidates).last(1)));
+  }
+
+  TEST_CASE("a candidate that was abandoned is judged by its lower bound") {
+    const Timed abandoned{.contender = {small_grid}, .abandoned = true, .first_seconds = 0.25};
+    CHECK(abandoned.judging_seconds() == 0.25);
+    CHECK(abandoned.judged_ratio(timed(box_tree_4_16, {}, {0.1, 0.125, 0.2})) == 2);
+  }
+
+  TEST_CASE("the search runs those asked for, then all exact techniques and neighbours, and all find the same hits") {
+    const SmallProblem small;
+    const std::vector<Contender> asked{{box_tree_4_16}, {small_grid}, {box_tree_4_16}};
+    const Exhaustive found = measure_all(small.problem, asked, {.repeats = 1, .patience = 1e3});
+    REQUIRE(found.candidates.size() > 2);
+    CHECK(found.candidates[0].contender == asked[0]);
+    CHECK(found.candidates[1].contender == asked[1]);
+    for (const Technique technique : all_techniques)
+      CHECK(std::any_of(found.candidates.begin(), found.candidates.end(), [&](const Timed& one) {
+              return one.contender.candidate.technique == technique;
+            }) == record_of(technique).exact);
+    for (const Timed& one : found.candidates) {
+      CHECK(std::count_if(found.candidates.begin(), found.candidates.end(),
+                          [&](const Timed& other) { return other.contender == one.contender; }) == 1);
+      if (!one.abandoned) CHECK(one.counts.hits == found.candidates[0].counts.hits);
+    }
+    const Contender leader = leader_of(found);
+    const auto near = neighbours(leader.candidate);  // none of brute force, for instance
+    CHECK((near.empty() || std::any_of(near.begin(), near.end(), [&](const Candidate& candidate) {
+             return found.find({candidate}) != nullptr;
+           })));
+    REQUIRE(found.best);
+    const Timed& best = found.candidates[*found.best];
+    CHECK_FALSE(best.abandoned);
+    CHECK_FALSE(best.judging.empty());
+    CHECK(found.noise > 0);
+    CHECK(found.find(best.contender) == &best);
+    CHECK(found.find({{Technique::grid, GridParameters{1000}}}) == nullptr);
+    for (const Contender& contender : asked)
+      CHECK((found.find(contender)->abandoned || !found.find(contender)->judging.empty()));
+    CHECK_FALSE(found.stopped);
+  }
+
+  TEST_CASE("with two threads allowed, the fastest are also tried on one") {
+    const SmallProblem small;
+    const std::vector<Contender> asked{{box_tree_4_16, 2}, {box_tree_4_16, 1}, {small_grid, 1}};
+    const Exhaustive found = measure_all(small.problem, asked, {.repeats = 1, .patience = 1e3, .threads = 2});
+    for (std::size_t i = 0; i < asked.size(); ++i) CHECK(found.candidates[i].contender == asked[i]);
+    const Contender leader = leader_of(found);
+    CHECK(found.find({leader.candidate, 3 - leader.threads}) != nullptr);
+  }
+
+  TEST_CASE("a search that is stopped before its first run has no best, and says that it was stopped") {
+    const SmallProblem small;
+    std::stop_source source;
+    source.request_stop();
+    const Exhaustive found =
+        measure_all(small.problem, std::vector<Contender>{{small_grid}}, {.stop = source.get_token()});
+    CHECK(found.stopped);
+    CHECK_FALSE(found.best);
+    CHECK(found.candidates.empty());
+  }
+}
