@@ -1,9 +1,9 @@
 // Checkpoint files of the sweep: reading either succeeds or throws FileError. A checkpoint that was read can be written
 // and read again.
 
-#include "detp/validate/sweep/checkpoint.hpp"
 #include "detp/sim/files/file_error.hpp"
-#include "detp/validate/base/checksum.hpp"
+#include "detp/validate/base/digest.hpp"
+#include "detp/validate/sweep/sweep.hpp"
 #include "scratch.hpp"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "detp/validate/cli/command_line.hpp"
-#include "detp/validate/cli/options/unit_cost_option.hpp"
+#include "detp/validate/cli/options/cost_options.hpp"
 #include "scratch.hpp"
 
 namespace {

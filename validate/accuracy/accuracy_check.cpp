@@ -15,7 +15,7 @@
 #include "detp/sim/ranks/farm.hpp"
 #include "detp/validate/base/json_bytes.hpp"
 #include "judged_samples.hpp"
-#include "pilot_radii.hpp"
+#include "radii.hpp"
 
 namespace detp::validate {
 namespace {

@@ -11,7 +11,7 @@
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/photons/light_notes.hpp"
-#include "pilot_radii.hpp"
+#include "radii.hpp"
 
 namespace detp::validate {
 namespace {

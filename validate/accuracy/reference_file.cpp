@@ -13,7 +13,6 @@
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/input_file.hpp"
 #include "detp/sim/files/output_file.hpp"
-#include "detp/validate/base/checksum.hpp"
 #include "detp/validate/base/digest.hpp"
 
 namespace detp::validate {

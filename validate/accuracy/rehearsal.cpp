@@ -6,7 +6,7 @@
 #include "accuracy_pilot.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/estimate/variable_radius.hpp"
-#include "pilot_radii.hpp"
+#include "radii.hpp"
 
 namespace detp::validate {
 namespace {

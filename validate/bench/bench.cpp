@@ -2,19 +2,46 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <numeric>
+#include <span>
+#include <vector>
 
-#include "contenders.hpp"
+#include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/lists/simd/instruction_sets.hpp"
 #include "detp/sim/lists/simd/tree_search.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
 
 namespace detp::validate {
 namespace {
+
+struct Contenders {
+  std::vector<Candidate> candidates;  ///< shortest predicted time first; empty if none fits in memory
+  double hits = 0;                    ///< expected number of hits, by the closed forms
+};
+
+/// The exact techniques, or only the exact techniques in `named` if it is not empty. Each has the parameters with the
+/// shortest predicted time. Techniques without a closed form come last, with default parameters. Leaves out candidates
+/// whose predicted time exceeds `hopeless` times that of the first.
+Contenders contenders(const Workload& workload, std::span<const Technique> named, double hopeless) {
+  const auto wanted = [&](Technique technique) {
+    return named.empty() || std::find(named.begin(), named.end(), technique) != named.end();
+  };
+  std::vector<Prediction> ranking = model::rank(workload, built_in_unit_costs());
+  Contenders found{.candidates = {}, .hits = ranking.front().counts.hits};
+  std::erase_if(ranking, [&](const Prediction& ranked) { return !wanted(ranked.candidate.technique); });
+  for (const Prediction& ranked : ranking)
+    if (ranked.time.total() <= hopeless * ranking.front().time.total()) found.candidates.push_back(ranked.candidate);
+  for (const Technique technique : exact_techniques)
+    if (wanted(technique) && !model::has_closed_form(technique))
+      found.candidates.push_back(default_candidate(technique));
+  return found;
+}
 
 JobRequest request_of(const BenchWorkload& workload, std::uint64_t seed) {
   JobRequest request;

@@ -1,9 +1,8 @@
-#include "detp/validate/cli/ask.hpp"
+#include "detp/validate/cli/command_line.hpp"
 
 #include <cstring>
 
 #include "guard.hpp"
-#include "progress.hpp"
 
 using namespace detp;
 

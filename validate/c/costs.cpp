@@ -1,8 +1,7 @@
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "guard.hpp"
-#include "handles.hpp"
-#include "progress.hpp"
+#include "types.hpp"
 
 using namespace detp;
 

@@ -4,9 +4,7 @@
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/reference/missed_light.hpp"
 #include "guard.hpp"
-#include "progress.hpp"
-#include "results.hpp"
-#include "views.hpp"
+#include "types.hpp"
 
 using namespace detp;
 

@@ -4,7 +4,6 @@
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 
-#include "counts.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/sphere_cache/sphere_cache.hpp"
@@ -16,7 +15,7 @@
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/job/job.hpp"
 #include "guard.hpp"
-#include "handles.hpp"
+#include "types.hpp"
 
 using namespace detp;
 

@@ -4,9 +4,7 @@
 
 #include "detp/validate/choice/candidate_json.hpp"
 #include "guard.hpp"
-#include "handles.hpp"
-#include "progress.hpp"
-#include "views.hpp"
+#include "types.hpp"
 
 using namespace detp;
 

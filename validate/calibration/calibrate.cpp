@@ -16,9 +16,7 @@
 #include "detp/validate/measure/stop_after.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "fit_all.hpp"
-#include "round_times.hpp"
 #include "timed_workloads.hpp"
-#include "touch_cost.hpp"
 
 namespace detp::validate {
 namespace {

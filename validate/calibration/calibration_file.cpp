@@ -4,17 +4,18 @@
 
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
 
 #include "built_in_costs.hpp"
-#include "cache_file.hpp"
 #include "calibration_key.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/input_file.hpp"
-#include "detp/validate/base/checksum.hpp"
+#include "detp/sim/files/output_file.hpp"
+#include "detp/validate/base/digest.hpp"
 
 namespace detp::validate {
 namespace {
@@ -136,6 +137,28 @@ bool is_foreign(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, unknown) || std::filesystem::is_empty(path, unknown)) return false;
   const Json json = Json::parse(sim::read_file(path, most_bytes), nullptr, false);
   return !json.is_object() || json.value("schema", Json::object()).value("name", Json()) != schema;
+}
+
+/// detp/NAME in $XDG_CACHE_HOME, or in ~/.cache if that is not set to an absolute path; empty if there is no home either.
+std::string cache_path(const std::string& name) {
+  const auto folder = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && value[0] == '/' ? std::filesystem::path(value) : std::filesystem::path();
+  };
+  std::filesystem::path cache = folder("XDG_CACHE_HOME");
+  if (cache.empty() && !folder("HOME").empty()) cache = folder("HOME") / ".cache";
+  return cache.empty() ? "" : (cache / "detp" / name).string();
+}
+
+/// Replaces the file as a whole, and makes its folder if necessary. Throws sim::FileError.
+void write_cache_file(const std::string& path, const std::string& text) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code failed;
+  if (!folder.empty()) std::filesystem::create_directories(folder, failed);
+  if (failed) throw sim::FileError(folder.string(), fmt::format("cannot be made: {}", failed.message()));
+  sim::OutputFile file(path);
+  file.write(text);
+  file.commit();
 }
 
 }  // namespace

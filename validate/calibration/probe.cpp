@@ -19,7 +19,6 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "timed_workloads.hpp"
-#include "touch_cost.hpp"
 
 namespace detp::validate {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "choice.hpp"
-#include "closed_form_choice.hpp"
+#include "closed_forms.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
@@ -12,7 +12,6 @@
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/registry.hpp"
 #include "detp/validate/calibration/sum_costs.hpp"
-#include "evidence.hpp"
 #include "pilot.hpp"
 
 namespace detp::validate {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "box_tree_bound.hpp"
+#include "box_tree_guess.hpp"
 #include "comparison.hpp"
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
@@ -20,9 +20,7 @@
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/searcher.hpp"
-#include "doubt.hpp"
 #include "structural_sample.hpp"
-#include "usual_shape.hpp"
 
 namespace detp::validate {
 namespace {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "choice.hpp"
+#include "closed_forms.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
@@ -15,8 +16,6 @@
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/registry.hpp"
-#include "evidence.hpp"
-#include "late_searcher.hpp"
 #include "plan_basis.hpp"
 
 namespace detp::validate {

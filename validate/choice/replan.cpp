@@ -11,7 +11,6 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/soundness.hpp"
-#include "late_searcher.hpp"
 #include "plan_basis.hpp"
 
 namespace detp::validate {

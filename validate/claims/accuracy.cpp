@@ -20,7 +20,7 @@ constexpr double flux = 6 * std::numbers::pi;
 constexpr double reflected = 0.5;
 constexpr double walls = 6;
 constexpr double room_area = 6;
-constexpr double triangle_area = 1.0 / 512;  // 16 by 16 cells on each wall
+constexpr double wall_triangle_area = 1.0 / 512;  // 16 by 16 cells on each wall
 constexpr std::size_t rays_of_each_run = 25'000;
 constexpr std::size_t runs_of_each_batch = 6;
 constexpr std::size_t samples_of_each_batch = 600;
@@ -177,8 +177,8 @@ std::vector<Finding> accuracy_findings(const Experiment& experiment) {
               model::disc_noise_squared(light, power, noise_radius, clumping(noise_radius)),
               mean_of(batches, &Errors::disc_noise), 0.05),
       finding("accuracy.triangle-noise", "variance of triangle hits in @furnace, over the squared irradiance",
-              model::triangle_noise_squared(light, power, triangle_area), mean_of(batches, &Errors::triangle_noise),
-              few_patches),
+              model::triangle_noise_squared(light, power, wall_triangle_area),
+              mean_of(batches, &Errors::triangle_noise), few_patches),
       finding("accuracy.edge-bias",
               "squared bias of discs of radius 0.1 in strips between two edges of @furnace, relative",
               model::bias_squared({.linear = model::bias_of_edges(1, strip_area)}, bias_radius),

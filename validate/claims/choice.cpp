@@ -1,17 +1,94 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
 
 #include "batches.hpp"
-#include "counted_search.hpp"
+#include "claim.hpp"
 #include "detp/model/rank/choose.hpp"
+#include "detp/model/rank/predict.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/technique/technique.hpp"
 #include "detp/validate/base/search_work.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "experiments.hpp"
 
+/// Counts of searches of the rays for which a choice is made: as the choice predicts them, and with the effects of the workload.
 namespace detp::validate {
 namespace {
+
+struct CountedBatch {
+  double rays = 0;
+  Counts<double> counts;
+};
+
+/// The counts of some of the rays, and of parts of these.
+struct CountedSearch {
+  CountedBatch all;
+  std::vector<CountedBatch> batches = {};  ///< at most batch_count, each with rays from everywhere
+};
+
+/// Distributes all rays over the batches in short runs of neighbouring rays. So the segments of one photon's path
+/// mostly stay together, and each batch has rays from all parts of a sorted file.
+std::vector<std::vector<sim::Ray>> distribute_over_batches(const std::vector<sim::Ray>& rays) {
+  const std::size_t batches = std::min<std::size_t>(batch_count, rays.size());
+  const std::size_t run = std::clamp<std::size_t>(rays.size() / batches, 1, 64);
+  std::vector<std::vector<sim::Ray>> parts(batches);
+  for (std::size_t i = 0; i < rays.size(); ++i) parts[i / run % batches].push_back(rays[i]);
+  return parts;
+}
+
+/// Searches this share of the rays of experiment.choice, which must be set: first all of them at once, then in parts.
+/// Returns nothing after a stop request.
+std::optional<CountedSearch> count_search(const Experiment& experiment, const Candidate& candidate, double share = 1) {
+  const ChoiceQuestion& question = *experiment.choice;
+  const auto taken = static_cast<std::size_t>(std::ceil(share * static_cast<double>(question.rays.size())));
+  // An evenly spaced sample.
+  std::vector<sim::Ray> rays;
+  for (std::size_t i = 0; i < taken; ++i) rays.push_back(question.rays[(i + 1) * question.rays.size() / taken - 1]);
+  bool stopped = false;
+  const auto counts_of = [&](const std::vector<sim::Ray>& some) {
+    const sim::Problem problem = sim::make_problem(some, experiment.discs, question.workload.front_facing);
+    const sim::Outcome outcome = sim::run(problem, candidate, {.stop = experiment.stop});
+    if (outcome.stopped) stopped = true;
+    return CountedBatch{static_cast<double>(some.size()), as_expected(outcome.counts)};
+  };
+  CountedSearch counted{.all = counts_of(rays)};
+  for (const std::vector<sim::Ray>& batch : distribute_over_batches(rays)) counted.batches.push_back(counts_of(batch));
+  if (stopped) return std::nullopt;
+  return counted;
+}
+
+/// The value for `rays` rays, scaled from the counted ones. It must add up over rays. The standard error is that between
+/// the batches, but at least that of independent events whose expected number is `predicted`; infinite if there is a
+/// single ray.
+Estimate observed_in(const CountedSearch& counted, const std::function<double(const Counts<double>&)>& value,
+                     double predicted, double rays) {
+  const double scale = rays / counted.all.rays;
+  Estimate estimate{scale * value(counted.all.counts), std::numeric_limits<double>::infinity()};
+  if (counted.batches.size() < 2) return estimate;
+  std::vector<double> parts;
+  for (const CountedBatch& batch : counted.batches) parts.push_back(rays / batch.rays * value(batch.counts));
+  estimate.standard_error = std::max(batch_means(parts).standard_error, std::sqrt(scale * predicted));
+  return estimate;
+}
+
+/// The number of batches from which observed_in has its standard error.
+int batches_in(const CountedSearch& counted) { return std::max(2, static_cast<int>(counted.batches.size())); }
+
+/// See the figures in the README of this folder.
+constexpr double effects_tolerance = 0.5;
+
+/// A usual box tree: `detp scene` shows for it what switching an effect changes.
+Candidate usual_tree() { return {Technique::box_tree, BoxTreeParameters{8, 16}}; }
+
+double all_tests(const Counts<double>& counts) { return counts.cull_tests + counts.disc_tests; }
+
+double all_hits(const Counts<double>& counts) { return counts.hits; }
 
 /// Observed counts multiplied by unit costs give times that are wrong by a factor of 1.23 in the median. So a predicted
 /// count within 25 % of the observed count is not the main cause of a wrong predicted time.
@@ -19,7 +96,7 @@ constexpr double choice_tolerance = 0.25;
 
 /// Techniques that process each ray separately are counted on a sample of the rays if the predicted time for all rays
 /// is longer than this.
-constexpr double most_seconds = 3;
+constexpr double most_seconds_of_all_rays = 3;
 
 /// True if the technique processes each ray separately. A share of the rays then needs the same share of the tests.
 bool searches_ray_by_ray(Technique technique) {
@@ -27,7 +104,8 @@ bool searches_ray_by_ray(Technique technique) {
 }
 
 double share_counted(const Prediction& ranked) {
-  return searches_ray_by_ray(ranked.candidate.technique) ? std::min(1.0, most_seconds / ranked.time.total()) : 1;
+  return searches_ray_by_ray(ranked.candidate.technique) ? std::min(1.0, most_seconds_of_all_rays / ranked.time.total())
+                                                         : 1;
 }
 
 bool adds_up_over_rays(std::string_view term) {
@@ -106,6 +184,40 @@ double choice_work(const Experiment& experiment) {
     work += 2 * share_counted(ranked) * test_work(ranked.counts) +  // on all sampled rays, and on parts of them
             (1 + batch_count) * build_work(ranked.counts);
   return work;
+}
+
+std::vector<Finding> effect_findings(const Experiment& experiment) {
+  if (!experiment.choice || experiment.stop.stop_requested()) return {};
+  const sim::Stopwatch clock;
+  const ChoiceQuestion& question = *experiment.choice;
+  const auto counted = count_search(experiment, usual_tree());
+  if (!counted) return {};
+  const Counts<double> predicted = model::predict(question.workload, usual_tree());
+  const std::string with = question.effects.empty() ? "no effect" : question.effects;
+  std::vector<Finding> findings;
+  const auto add = [&](const char* id, const char* what, double (*value)(const Counts<double>&)) {
+    const Estimate found = observed_in(*counted, value, value(predicted), question.workload.rays);
+    findings.push_back({.id = fmt::format("effects.{}", id),
+                        .quantity = fmt::format("{} of {} {}, predicted with {}", what, name(Technique::box_tree),
+                                                describe(usual_tree()), with),
+                        .technique = std::string(name(Technique::box_tree)),
+                        .parameters = describe(usual_tree()),
+                        .predictions = {{Form::corrected, "the closed form with these effects", value(predicted)}},
+                        .observed = found,
+                        .batches = batches_in(*counted),
+                        .tolerance = effects_tolerance,
+                        .lines = static_cast<std::uint64_t>(counted->all.rays)});
+  };
+  add("tests", "tests of rays with boxes and discs", all_tests);
+  add("hits", "hits", all_hits);
+  for (Finding& finding : findings) finding.seconds = clock.seconds();
+  return findings;
+}
+
+double effect_work(const Experiment& experiment) {
+  if (!experiment.choice) return 0;
+  const Counts<double> counts = model::predict(experiment.choice->workload, usual_tree());
+  return 2 * test_work(counts) + (1 + batch_count) * build_work(counts);
 }
 
 }  // namespace detp::validate

@@ -17,7 +17,6 @@
 #include "detp/validate/base/search_work.hpp"
 #include "detp/validate/structural/structural.hpp"
 #include "experiments.hpp"
-#include "samples.hpp"
 
 namespace detp::validate {
 namespace {

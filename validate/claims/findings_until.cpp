@@ -10,7 +10,6 @@
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
-#include "finding_json.hpp"
 #include "shared_findings.hpp"
 
 namespace detp::validate {

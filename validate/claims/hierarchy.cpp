@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "batches.hpp"
 #include "detp/model/rank/predict.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/rays/line_field.hpp"
@@ -12,7 +13,6 @@
 #include "detp/validate/base/search_work.hpp"
 #include "detp/validate/structural/structural.hpp"
 #include "experiments.hpp"
-#include "samples.hpp"
 
 namespace detp::validate {
 namespace {

@@ -5,7 +5,6 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/base/json_bytes.hpp"
-#include "finding_json.hpp"
 
 namespace detp::validate {
 

@@ -1,15 +1,22 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "claim.hpp"
 #include "detp/sim/ranks/farm.hpp"
+#include "detp/validate/checkpoint/value_json.hpp"
 #include "experiments.hpp"
 
 /// Experiments that ranks share.
 namespace detp::validate {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FormulaValue, form, source, value)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, id, quantity, technique, parameters, predictions, observed, batches,
+                                   tolerance, lines, seconds)
 
 /// One of the experiments, and which of its repetitions: each has its own seed; number 0 has the experiment's.
 struct Repetition {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "batches.hpp"
 #include "detp/model/optimum/best_ratio.hpp"
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
@@ -15,7 +16,6 @@
 #include "detp/validate/base/search_work.hpp"
 #include "detp/validate/structural/structural_walk.hpp"
 #include "experiments.hpp"
-#include "samples.hpp"
 
 namespace detp::validate {
 namespace {

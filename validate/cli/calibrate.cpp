@@ -3,11 +3,10 @@
 #include "command.hpp"
 #include "detp/sim/lists/simd/instruction_sets.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
-#include "detp/validate/cli/options/instruction_set_option.hpp"
+#include "detp/validate/cli/options/candidate_options.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
 #include "detp/validate/cli/text/table.hpp"
-#include "detp/validate/cli/text/text_table.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
 namespace detp::cli {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "command.hpp"
 
@@ -39,5 +40,14 @@ class CommandLine {
   std::array<Command, 9> commands_;
   bool* all_options_ = nullptr;  ///< of the formatter: the help is to have every option
 };
+
+/// What `detp COMMAND --help` shows: the options that matter, in groups, at most 40 lines of 80 columns. `--help all` has
+/// all of them. Empty for an unknown command.
+[[nodiscard]] std::string_view short_help(std::string_view command);
+
+/// The JSON that `detp WORDS… --format json` prints. Only files that the words name are written; nothing is printed. Throws
+/// std::invalid_argument for bad usage, for help and for --memory-limit, which is the program's; as the commands do; sim::Stopped if a stop
+/// request came before there was anything.
+[[nodiscard]] Json ask(const std::vector<std::string>& words, const std::stop_token& stop);
 
 }  // namespace detp::cli

@@ -1,7 +1,4 @@
 #include "program.hpp"
-#ifdef DETP_MPI
-#include "mpi_world.hpp"
-#endif
 
 #ifdef DETP_JEMALLOC
 // The first touch of a small page took 11 µs on a virtual machine, as long as thousands of tests of rays. So freed memory is kept for 30 s, shared by all

@@ -5,8 +5,10 @@
 #endif
 #include <sys/types.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <stdexcept>
 #include <system_error>
@@ -18,12 +20,11 @@
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/sim/ranks/failures.hpp"
-#include "detp/validate/cli/options/command_files.hpp"
+#include "detp/validate/cli/options/common_options.hpp"
 #include "detp/validate/cli/text/messages.hpp"
 #include "envelope.hpp"
 #include "interruption.hpp"
 #include "program.hpp"
-#include "stop_report.hpp"
 
 /// Of jemalloc, with which the command is linked, but not all that link this library.
 extern "C" [[gnu::weak]] int mallctl(const char* name, void* old, std::size_t* old_size, void* value, std::size_t size);
@@ -206,6 +207,13 @@ int run_alone(int argc, char** argv, Interruption& interruption) {
 }
 
 }  // namespace
+
+int launched_processes() {
+  int most = 1;
+  for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})  // Open MPI; MPICH and Slurm
+    if (const char* const value = std::getenv(name)) most = std::max(most, std::atoi(value));
+  return most;
+}
 
 int run_program(int argc, char** argv, const JoinWorld& join) {
   prepare_streams();

@@ -11,7 +11,7 @@
 #include "detp/sim/files/ray_file.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
-#include "detp/validate/cli/report/columns.hpp"
+#include "detp/validate/cli/report/answer_rows.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"

@@ -1,4 +1,4 @@
-#include "short_help.hpp"
+#include "command_line.hpp"
 
 namespace detp::cli {
 

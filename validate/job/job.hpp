@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -22,6 +23,7 @@
 #include "detp/sim/scene/scene.hpp"
 #include "detp/sim/search/disc_summary.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "detp/validate/base/digest.hpp"
 
 /// Makes rays, discs and their workload from what a user specifies: numbers, a scene, or files.
 namespace detp::validate {
@@ -200,5 +202,11 @@ struct Job {
 /// Makes what is requested; nothing is measured yet. Throws sim::FileError for a bad file, std::invalid_argument for a bad request,
 /// std::length_error if the rays or samples would not fit in memory, and sim::Stopped within 0.1 s of a stop request.
 [[nodiscard]] Job make_job(const JobRequest& request, std::stop_token stop = {}, const sim::ReportPhase& progress = {});
+
+void add(std::span<const sim::Disc> discs, Digest& digest);
+void add(std::span<const sim::Ray> rays, Digest& digest);
+
+/// Of discs, of the rays in memory with the numbers of their photons, and of the seed: jobs with the same digest find the same.
+[[nodiscard]] std::string digest_of(const Job& job);
 
 }  // namespace detp::validate

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "detp/validate/checkpoint/counts_json.hpp"
+#include "detp/validate/checkpoint/value_json.hpp"
 
 namespace detp::validate {
 namespace {

@@ -7,11 +7,9 @@
 #include <functional>
 #include <stdexcept>
 
-#include "agreement.hpp"
-#include "detp/validate/picture/number_labels.hpp"
+#include "detp/validate/picture/labels.hpp"
 #include "detp/validate/picture/svg.hpp"
-#include "detp/validate/picture/technique_sign.hpp"
-#include "map_labels.hpp"
+#include "map_summary.hpp"
 
 namespace detp::validate {
 namespace {

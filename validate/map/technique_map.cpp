@@ -13,7 +13,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/validate/base/digest.hpp"
-#include "detp/validate/job/job_digest.hpp"
+#include "detp/validate/job/job.hpp"
 #include "map_checkpoint.hpp"
 
 namespace detp::validate {
@@ -228,6 +228,18 @@ class MapMaker {
 
 TechniqueMap make_map(const JobRequest& request, const MapAxes& axes, const MapOptions& options) {
   return MapMaker(request, axes, options).make();
+}
+
+Choice choose_for_cell(const Question& question, const CostTable& costs) {
+  Choice choice = choose(question, costs);
+  if (question.stop.stop_requested()) throw sim::Stopped("stopped while techniques were ranked");
+  for (const Prediction& one : choice.candidates)
+    if (const double seconds = one.seconds(); !(seconds > 0 && std::isfinite(seconds)))
+      throw std::invalid_argument(
+          fmt::format("with these unit costs {} takes {} s, so that nothing can be compared; give every operation its "
+                      "cost in seconds",
+                      name(one.candidate.technique), seconds));
+  return choice;
 }
 
 }  // namespace detp::validate

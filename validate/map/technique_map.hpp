@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "cell_prediction.hpp"
 #include "detp/sim/base/progress.hpp"
 #include "detp/validate/choice/analysis.hpp"
+#include "detp/validate/choice/choice.hpp"
 #include "map_axes.hpp"
 
 /// Predicts, and measures if wanted, which technique is fastest for each number of rays and each disc radius.
@@ -65,5 +65,8 @@ struct MapOptions {
 /// std::length_error for axes that are too long, and if the rays of all rows, which measuring keeps, do not fit in
 /// memory; sim::FileError for a checkpoint that cannot be written, is damaged, or was made with other inputs or choices. Does not throw Stopped: after a stop request, the map has the rows so far, maybe none.
 [[nodiscard]] TechniqueMap make_map(const JobRequest& request, const MapAxes& axes, const MapOptions& options);
+
+/// The choice for one cell of a map. Throws as choose, and std::invalid_argument if predicted times are 0 or not finite.
+[[nodiscard]] Choice choose_for_cell(const Question& question, const CostTable& costs);
 
 }  // namespace detp::validate

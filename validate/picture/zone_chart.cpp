@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "labels.hpp"
 #include "svg.hpp"
-#include "technique_sign.hpp"
 
 namespace detp::validate {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "baselines.hpp"
 #include "choosers.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/validate/measure/measure_all.hpp"
 #include "regret_workloads.hpp"
 
@@ -84,5 +84,16 @@ struct RegretResult {
 /// in memory or if a chooser or technique refuses it. Throws as make_job does for a file that cannot be read.
 [[nodiscard]] RegretResult run_regret(std::span<const RegretWorkload> workloads, std::span<const Chooser> choosers,
                                       const RegretOptions& options);
+
+/// The reason why `choice` was chosen although `best` is faster, in a few words. The predicted times of the two are the
+/// closed forms' for this workload, with these unit costs. Their errors are split by prediction_error() into counts and
+/// unit costs. Only what differs between choice and best can change their order, so the reason is the part whose errors
+/// differ most: counts, with the count that matters most, or unit costs. `noise` is Exhaustive::noise.
+///
+/// Empty if the two are the same. Other reasons: the difference is within the noise; the best has no closed form; the
+/// best was predicted to be faster than the choice, so the ranking did not try it; the choice was abandoned; they differ
+/// only in the number of threads.
+[[nodiscard]] std::string reason_of_regret(const Workload& workload, const CostTable& costs, const Timed& choice,
+                                           const Timed& best, double noise);
 
 }  // namespace detp::validate

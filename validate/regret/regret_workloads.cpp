@@ -5,13 +5,67 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
+#include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/families/families.hpp"
 
 namespace detp::validate {
 namespace {
+
+constexpr std::size_t strays = 5;
+constexpr double stray_distance = 300;
+constexpr std::uint64_t clusters = 20;
+
+std::array<double, 4> uniform(std::uint64_t seed, std::uint64_t number, std::uint64_t use) {
+  return sim::uniform4(seed, sim::Stream::tests, number, use);
+}
+
+/// Two independent standard normal numbers (Box and Muller).
+std::array<double, 2> normal(double u, double v) {
+  const double length = std::sqrt(-2 * std::log1p(-u));
+  return {length * std::cos(2 * std::numbers::pi * v), length * std::sin(2 * std::numbers::pi * v)};
+}
+
+glm::dvec3 in_cube(std::uint64_t seed, std::uint64_t number) {
+  const auto u = uniform(seed, number, 0);
+  return {u[0] - 0.5, u[1] - 0.5, u[2] - 0.5};
+}
+
+/// The sizes of the clusters fall geometrically from 0.1 to 0.0003.
+glm::dvec3 in_cluster(std::uint64_t seed, std::uint64_t number) {
+  const std::uint64_t cluster = number % clusters;
+  const double size = 0.1 * std::pow(0.003, static_cast<double>(cluster) / (clusters - 1));
+  const auto u = uniform(seed, number, 0);
+  const auto xy = normal(u[0], u[1]);
+  const auto z = normal(u[2], u[3]);
+  return 0.8 * in_cube(seed, cluster) + size * glm::dvec3(xy[0], xy[1], z[0]);
+}
+
+glm::dvec3 on_floor_or_ball(std::uint64_t seed, std::uint64_t number) {
+  constexpr double radius = 0.005;
+  const auto u = uniform(seed, number, 0);
+  if (number % 2 == 0) return {u[0] - 0.5, 0, u[1] - 0.5};
+  return glm::dvec3(0.1, radius, 0.2) + radius * sim::uniform_direction(u[0], u[1]);
+}
+
+glm::dvec3 position(AwkwardScene scene, std::uint64_t seed, std::uint64_t number) {
+  switch (scene) {
+    case AwkwardScene::clusters:
+      return in_cluster(seed, number);
+    case AwkwardScene::tiny_object:
+      return on_floor_or_ball(seed, number);
+    case AwkwardScene::thin_sheet:
+      return in_cube(seed, number) * glm::dvec3(1, 0, 1);
+    case AwkwardScene::strays:
+      return in_cube(seed, number) * (number < strays ? 2 * stray_distance : 1.0);
+    case AwkwardScene::mixed_radii:
+      break;
+  }
+  return in_cube(seed, number);
+}
 
 constexpr std::array radii{0.0025, 0.01, 0.04, 0.16};
 constexpr std::array ray_counts{1e2, 1e3, 1e4, 1e5, 1e6};
@@ -73,6 +127,22 @@ Job with_effort(Job job) {
 }
 
 }  // namespace
+
+std::string_view name(AwkwardScene scene) {
+  constexpr std::array<std::string_view, 5> names{"clusters", "tiny-object", "thin-sheet", "strays", "mixed-radii"};
+  return names[static_cast<std::size_t>(scene)];
+}
+
+std::vector<sim::Disc> awkward_discs(AwkwardScene scene, std::size_t count, double radius, std::uint64_t seed) {
+  std::vector<sim::Disc> discs;
+  discs.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto u = uniform(seed, i, 1);
+    const double factor = scene == AwkwardScene::mixed_radii ? std::exp(normal(u[2], u[3])[0]) : 1;
+    discs.push_back({position(scene, seed, i), sim::uniform_direction(u[0], u[1]), radius * factor});
+  }
+  return discs;
+}
 
 RegretSet regret_set(RegretEffort effort, const std::string& folder) {
   RegretSet set;

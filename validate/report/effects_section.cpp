@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "detp/validate/picture/chart.hpp"
-#include "detp/validate/picture/number_labels.hpp"
-#include "figure.hpp"
+#include "detp/validate/picture/labels.hpp"
+#include "parts.hpp"
 #include "sections.hpp"
 
 namespace detp::validate {

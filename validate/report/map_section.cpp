@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detp/validate/picture/number_labels.hpp"
+#include "detp/validate/picture/labels.hpp"
 #include "detp/validate/picture/svg.hpp"
 #include "detp/validate/picture/zone_chart.hpp"
-#include "figure.hpp"
+#include "parts.hpp"
 #include "sections.hpp"
 
 namespace detp::validate {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "detp/validate/picture/number_labels.hpp"
-#include "figure.hpp"
+#include "detp/validate/picture/labels.hpp"
+#include "parts.hpp"
 #include "sections.hpp"
 
 namespace detp::validate {

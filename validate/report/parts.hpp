@@ -3,11 +3,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "detp/model/vocabulary/technique.hpp"
 #include "detp/validate/picture/svg.hpp"
 
-/// What the sections of a page read in the JSON answer of `detp report`.
+/// What the sections of a page are made of: what they read in the JSON answer of `detp report`, and tables and charts as HTML.
 namespace detp::validate {
 
 using ReportJson = nlohmann::ordered_json;
@@ -41,5 +42,25 @@ using ReportJson = nlohmann::ordered_json;
 
 /// 85 967 as "85 967"; from 10⁷ on "3.1e7".
 [[nodiscard]] std::string count_words(double count);
+
+struct Rows {
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> cells;
+
+  /// "box-tree: predicted 7.8 ms, measured 7.9 ms": what a point of the chart that belongs to this row says. Empty cells are left out.
+  [[nodiscard]] std::string words(std::size_t row) const;
+};
+
+/// <figure> with the SVG, the finding, a place for values, and the table behind a heading that opens it. `title` must differ within a page.
+[[nodiscard]] std::string figure_html(const std::string& title, const std::string& finding, const std::string& svg,
+                                      const Rows& rows);
+
+[[nodiscard]] std::string table_html(const std::string& title, const Rows& rows);
+
+/// A paragraph.
+[[nodiscard]] std::string paragraph(const std::string& text);
+
+/// <section> with a heading of the second level.
+[[nodiscard]] std::string section_html(const std::string& title, const std::string& body);
 
 }  // namespace detp::validate

@@ -1,12 +1,30 @@
 #pragma once
 
 #include <deque>
+#include <nlohmann/json.hpp>
 
+#include "detp/model/rank/registry.hpp"
 #include "detp/sim/ranks/farm.hpp"
+#include "execute_until.hpp"
 #include "job_batches.hpp"
 
-/// Batches of rays that ranks share.
+/// Runs in batches of rays: as JSON, for a CheckpointFile or another process, and shared by ranks.
 namespace detp::validate {
+
+struct SavedRun {
+  Candidate candidate;
+  UntilState state;
+  ExecutedUntil so_far;  ///< hits, counts and seconds; no result
+};
+
+[[nodiscard]] nlohmann::json json_of(const Candidate& candidate, const UntilState& state, const ExecutedUntil& so_far);
+
+/// Throws nlohmann::json::exception or std::invalid_argument unless the JSON is that of json_of.
+[[nodiscard]] SavedRun saved_run_of(const nlohmann::json& json);
+
+/// To be sent to another process.
+[[nodiscard]] std::string bytes_of(const FoundBatch& found);
+[[nodiscard]] FoundBatch found_batch_of(const std::string& bytes);
 
 /// Makes and searches the batches of a job: those that will follow one another on different ranks at the same time. The batches do not depend on the
 /// number of ranks. The job's own rays are searched on rank 0.

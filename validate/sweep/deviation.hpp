@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "detp/model/vocabulary/form.hpp"
 #include "detp/validate/statistics/statistics.hpp"
+#include "point.hpp"
 
 /// Deviations of predicted from observed counts, over a sweep of workloads.
 namespace detp::validate {
@@ -54,5 +56,12 @@ struct DeviationSummary {
 
 /// One summary for each technique, quantity and form, in the order of their first appearance.
 [[nodiscard]] std::vector<DeviationSummary> summarise(std::span<const Deviation> deviations);
+
+/// Runs every candidate of a point on all sets of the point. Returns the comparisons of formula and count, one for each
+/// form of the formulas: of each term of Counts, and of m_i (rebuilds) and L_i (mean rays in the list) of each sphere i
+/// with at least 30 rebuilds. The result depends only on the point and the seed. Returns nothing if a stop was
+/// requested.
+[[nodiscard]] std::vector<Deviation> measure_point(const SweepPoint& point, std::uint64_t seed,
+                                                   const std::stop_token& stop);
 
 }  // namespace detp::validate

@@ -7,12 +7,12 @@
 #include <mutex>
 #include <utility>
 
-#include "checkpoint.hpp"
 #include "detp/model/rank/predict.hpp"
 #include "detp/sim/base/parallel.hpp"
 #include "detp/validate/base/digest.hpp"
 #include "detp/validate/base/search_work.hpp"
-#include "measure_point.hpp"
+#include "detp/validate/checkpoint/value_json.hpp"
+#include "deviation.hpp"
 
 namespace detp::validate {
 namespace {
@@ -94,6 +94,28 @@ class MeasurementCollector {
 };
 
 }  // namespace
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Deviation, dimension, samples, disc_share, technique, parameters, quantity, sphere,
+                                   form, predicted, observed)
+
+Checkpoint::Checkpoint(std::filesystem::path path, std::uint64_t seed, const std::string& formulas)
+    : file_(std::move(path), "validate --effort thorough",
+            {{"seed", seed}, {"digest of formulas and workloads", formulas}}) {}
+
+void Checkpoint::read(std::stop_token stop) {
+  const auto state = file_.read(std::move(stop));
+  if (!state) return;
+  try {
+    state->get_to(points_);
+  } catch (const nlohmann::json::exception& error) {
+    throw file_.damaged(error.what());
+  }
+}
+
+void Checkpoint::add(const std::string& point, const std::vector<Deviation>& deviations) {
+  points_[point] = deviations;
+  file_.write(points_);
+}
 
 void check_checkpoint(std::span<const SweepPoint> points, const SweepOptions& options) {
   (void)checkpoint_of(points, options, options.stop);

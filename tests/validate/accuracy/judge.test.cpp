@@ -9,7 +9,7 @@
 #include "detp/sim/photons/emitter.hpp"
 #include "detp/validate/accuracy/accuracy_pilot.hpp"
 #include "detp/validate/accuracy/judged_samples.hpp"
-#include "detp/validate/accuracy/two_radii.hpp"
+#include "detp/validate/accuracy/radii.hpp"
 
 namespace detp::validate {
 namespace {

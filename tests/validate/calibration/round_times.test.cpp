@@ -1,4 +1,4 @@
-#include "detp/validate/calibration/round_times.hpp"
+#include "detp/validate/calibration/timed_workloads.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "detp/validate/choice/choice_tips.hpp"
+#include "detp/validate/choice/tips.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "detp/validate/choice/closed_form_choice.hpp"
+#include "detp/validate/choice/closed_forms.hpp"
 
 #include <doctest/doctest.h>
 

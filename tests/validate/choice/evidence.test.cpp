@@ -1,4 +1,4 @@
-#include "detp/validate/choice/evidence.hpp"
+#include "detp/validate/choice/closed_forms.hpp"
 
 #include <doctest/doctest.h>
 

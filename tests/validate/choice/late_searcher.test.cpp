@@ -1,4 +1,4 @@
-#include "detp/validate/choice/late_searcher.hpp"
+#include "detp/validate/choice/plan_basis.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "detp/validate/checkpoint/estimate_json.hpp"
+#include "detp/validate/checkpoint/value_json.hpp"
 #include "support/scratch_file.hpp"
 
 namespace detp::validate {

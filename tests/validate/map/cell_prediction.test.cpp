@@ -1,4 +1,4 @@
-#include "detp/validate/map/cell_prediction.hpp"
+#include "detp/validate/map/technique_map.hpp"
 
 #include <doctest/doctest.h>
 

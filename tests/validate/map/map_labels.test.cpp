@@ -1,4 +1,4 @@
-#include "detp/validate/map/map_labels.hpp"
+#include "detp/validate/map/map_summary.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
-#include "detp/validate/picture/technique_sign.hpp"
+#include "detp/validate/picture/labels.hpp"
 #include "support/pages.hpp"
 
 namespace detp::support {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "detp/validate/picture/number_labels.hpp"
+#include "detp/validate/picture/labels.hpp"
 #include "support/xml.hpp"
 
 using namespace detp;

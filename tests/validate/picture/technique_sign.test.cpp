@@ -1,4 +1,4 @@
-#include "detp/validate/picture/technique_sign.hpp"
+#include "detp/validate/picture/labels.hpp"
 
 #include <doctest/doctest.h>
 

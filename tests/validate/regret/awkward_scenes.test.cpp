@@ -1,4 +1,4 @@
-#include "detp/validate/regret/awkward_scenes.hpp"
+#include "detp/validate/regret/regret_workloads.hpp"
 
 #include <doctest/doctest.h>
 

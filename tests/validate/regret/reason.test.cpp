@@ -1,4 +1,4 @@
-#include "detp/validate/regret/reason.hpp"
+#include "detp/validate/regret/regret.hpp"
 
 #include <doctest/doctest.h>
 

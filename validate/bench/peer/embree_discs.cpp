@@ -6,7 +6,7 @@
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/embree.hpp"
 #include "detp/sim/base/parallel.hpp"
-#include "sse_state.hpp"
+#include "embree_rays.hpp"
 
 namespace detp::validate {
 namespace {

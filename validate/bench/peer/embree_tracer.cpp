@@ -1,13 +1,70 @@
 #include "embree_tracer.hpp"
 
+#include <embree3/rtcore.h>
+
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <iterator>
 #include <type_traits>
-
-#include "embree_calls.hpp"
 
 namespace detp::validate {
 namespace {
+
+/// Overloads of Embree's calls, selected by the type of the ray: RTCRay for rtcOccluded, RTCRayHit for rtcIntersect, or
+/// packets of 8 or 16 of these.
+namespace calls {
+
+/// The ray, or packet of rays, in a call's argument.
+template <class Packet>
+auto& ray_of(Packet& packet) {
+  if constexpr (requires { packet.ray; })
+    return packet.ray;
+  else
+    return packet;
+}
+
+template <class Packet>
+constexpr std::size_t width = sizeof(ray_of(*static_cast<Packet*>(nullptr)).id) / sizeof(unsigned);
+
+/// Resets the hit, as rtcIntersect requires before a call.
+void clear_hit(RTCRayHit& ray) { ray.hit.geomID = RTC_INVALID_GEOMETRY_ID; }
+template <class Packet>
+void clear_hit(Packet& packet) {
+  if constexpr (requires { packet.hit; })
+    std::fill(std::begin(packet.hit.geomID), std::end(packet.hit.geomID), RTC_INVALID_GEOMETRY_ID);
+}
+
+void query(RTCScene scene, RTCIntersectContext& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
+void query(RTCScene scene, RTCIntersectContext& context, RTCRayHit& ray) { rtcIntersect1(scene, &context, &ray); }
+
+void query(const int* valid, RTCScene scene, RTCIntersectContext& context, RTCRay8& packet) {
+  rtcOccluded8(valid, scene, &context, &packet);
+}
+void query(const int* valid, RTCScene scene, RTCIntersectContext& context, RTCRayHit8& packet) {
+  rtcIntersect8(valid, scene, &context, &packet);
+}
+void query(const int* valid, RTCScene scene, RTCIntersectContext& context, RTCRay16& packet) {
+  rtcOccluded16(valid, scene, &context, &packet);
+}
+void query(const int* valid, RTCScene scene, RTCIntersectContext& context, RTCRayHit16& packet) {
+  rtcIntersect16(valid, scene, &context, &packet);
+}
+
+void query_stream(RTCScene scene, RTCIntersectContext& context, RTCRay* rays, unsigned count) {
+  rtcOccluded1M(scene, &context, rays, count, sizeof(RTCRay));
+}
+void query_stream(RTCScene scene, RTCIntersectContext& context, RTCRayHit* rays, unsigned count) {
+  rtcIntersect1M(scene, &context, rays, count, sizeof(RTCRayHit));
+}
+void query_stream(RTCScene scene, RTCIntersectContext& context, RTCRay8* packets, unsigned count) {
+  rtcOccludedNM(scene, &context, reinterpret_cast<RTCRayN*>(packets), 8, count, sizeof(RTCRay8));
+}
+void query_stream(RTCScene scene, RTCIntersectContext& context, RTCRayHit8* packets, unsigned count) {
+  rtcIntersectNM(scene, &context, reinterpret_cast<RTCRayHitN*>(packets), 8, count, sizeof(RTCRayHit8));
+}
+
+}  // namespace calls
 
 /// Data that Embree passes to the filter. Embree's own context must be the first member.
 struct FilterData {
@@ -49,23 +106,23 @@ constexpr std::size_t stream = 64;
 /// rays end before they start.
 template <class Packet>
 void EmbreeTracer::write_packet(std::size_t first, std::size_t count, Packet& packet) const {
-  auto& rays = embree::ray_of(packet);
+  auto& rays = calls::ray_of(packet);
   for (std::size_t lane = 0; lane < count; ++lane)
     maker_.write(rays_[first + lane], static_cast<unsigned>(first + lane), rays, lane);
-  for (std::size_t lane = count; lane < embree::width<Packet>; ++lane) {
+  for (std::size_t lane = count; lane < calls::width<Packet>; ++lane) {
     maker_.write(rays_[first], static_cast<unsigned>(first), rays, lane);
     rays.tfar[lane] = -1;
   }
-  embree::clear_hit(packet);
+  calls::clear_hit(packet);
 }
 
 template <class RayHit>
 void EmbreeTracer::single_rays(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
   RayHit ray{};
   for (; first < last; ++first) {
-    maker_.write(rays_[first], static_cast<unsigned>(first), embree::ray_of(ray));
-    embree::clear_hit(ray);
-    embree::query(scene_, context, ray);
+    maker_.write(rays_[first], static_cast<unsigned>(first), calls::ray_of(ray));
+    calls::clear_hit(ray);
+    calls::query(scene_, context, ray);
   }
 }
 
@@ -75,36 +132,36 @@ void EmbreeTracer::ray_streams(std::size_t first, std::size_t last, RTCIntersect
   while (first < last) {
     const std::size_t count = std::min(stream, last - first);
     for (std::size_t i = 0; i < count; ++i) {
-      maker_.write(rays_[first + i], static_cast<unsigned>(first + i), embree::ray_of(rays[i]));
-      embree::clear_hit(rays[i]);
+      maker_.write(rays_[first + i], static_cast<unsigned>(first + i), calls::ray_of(rays[i]));
+      calls::clear_hit(rays[i]);
     }
-    embree::query_stream(scene_, context, rays.data(), static_cast<unsigned>(count));
+    calls::query_stream(scene_, context, rays.data(), static_cast<unsigned>(count));
     first += count;
   }
 }
 
 template <class Packet>
 void EmbreeTracer::packets(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
-  constexpr std::size_t width = embree::width<Packet>;
+  constexpr std::size_t width = calls::width<Packet>;
   Packet packet{};
   alignas(64) std::array<int, width> valid{};
   for (; first < last; first += width) {
     const std::size_t count = std::min(width, last - first);
     write_packet(first, count, packet);
     for (std::size_t lane = 0; lane < width; ++lane) valid[lane] = lane < count ? -1 : 0;
-    embree::query(valid.data(), scene_, context, packet);
+    calls::query(valid.data(), scene_, context, packet);
   }
 }
 
 template <class Packet>
 void EmbreeTracer::packet_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
-  constexpr std::size_t width = embree::width<Packet>;
+  constexpr std::size_t width = calls::width<Packet>;
   std::array<Packet, stream / width> sent{};
   while (first < last) {
     unsigned filled = 0;
     for (; filled < sent.size() && first < last; first += width)
       write_packet(first, std::min(width, last - first), sent[filled++]);
-    embree::query_stream(scene_, context, sent.data(), filled);
+    calls::query_stream(scene_, context, sent.data(), filled);
   }
 }
 

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "accuracy_checkpoint.hpp"
 #include "accuracy_report.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
@@ -24,7 +23,7 @@
 #include "detp/validate/cli/options/value_lists.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
-#include "detp/validate/cli/text/shell_word.hpp"
+#include "detp/validate/cli/text/words.hpp"
 #include "detp/validate/job/job.hpp"
 #include "detp/validate/stopping/execute_until.hpp"
 

@@ -1,8 +1,7 @@
-#include "accuracy_checkpoint.hpp"
+#include "accuracy_report.hpp"
 
 #include "detp/validate/accuracy/accuracy_json.hpp"
-#include "detp/validate/checkpoint/counts_json.hpp"
-#include "detp/validate/checkpoint/estimate_json.hpp"
+#include "detp/validate/checkpoint/value_json.hpp"
 
 namespace detp::validate {
 

@@ -2,13 +2,16 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "detp/validate/accuracy/accuracy_check.hpp"
 #include "detp/validate/accuracy/reference_file.hpp"
 #include "detp/validate/axes/axes.hpp"
+#include "detp/validate/checkpoint/checkpoint_file.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/whole/whole.hpp"
 
+/// The answer of `detp accuracy`, and what it has found so far, in a checkpoint.
 namespace detp::cli {
 
 struct AccuracyAnswer {
@@ -62,5 +65,18 @@ inline constexpr double seconds_factor = 1.5;
 [[nodiscard]] Json to_json(const AccuracyAnswer& answer);
 [[nodiscard]] std::string csv_of(const AccuracyAnswer& answer);
 [[nodiscard]] std::string to_text(const AccuracyAnswer& answer, const Screen& screen);
+
+struct SavedAccuracy {
+  std::optional<validate::AccuracyPilot> pilot = {};
+  std::optional<validate::AccuracyCheck> check = {};
+  double planning_seconds = 0;  ///< of pilots and check
+  std::vector<validate::MadeRerun> runs = {};
+};
+
+/// Nothing is saved if there is no file. Throws as CheckpointFile::read.
+[[nodiscard]] SavedAccuracy read_accuracy(const validate::CheckpointFile& file, const std::stop_token& stop);
+
+/// Throws as CheckpointFile::write.
+void write_accuracy(validate::CheckpointFile& file, const SavedAccuracy& saved);
 
 }  // namespace detp::cli

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "detp/validate/cli/report/whole_report.hpp"
+#include "detp/validate/cli/report/prediction_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
-#include "detp/validate/cli/text/shell_word.hpp"
 #include "detp/validate/cli/text/table.hpp"
+#include "detp/validate/cli/text/words.hpp"
 
 /// The answer as JSON and CSV.
 namespace detp::cli {

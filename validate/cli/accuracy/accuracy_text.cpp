@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "detp/validate/cli/text/messages.hpp"
-#include "detp/validate/cli/text/text_table.hpp"
+#include "detp/validate/cli/text/table.hpp"
 
 /// The answer in words and tables.
 namespace detp::cli {

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/validate/cli/report/columns.hpp"
+#include "detp/validate/cli/report/answer_rows.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/table.hpp"
-#include "detp/validate/cli/text/text_table.hpp"
 
 namespace detp::cli {
 namespace {

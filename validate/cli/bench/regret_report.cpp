@@ -1,11 +1,10 @@
-#include "regret_report.hpp"
+#include "bench_report.hpp"
 
 #include <fmt/format.h>
 
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
-#include "detp/validate/cli/text/text_table.hpp"
-#include "regret_rows.hpp"
+#include "detp/validate/cli/text/table.hpp"
 
 namespace detp::cli {
 namespace {

@@ -1,8 +1,8 @@
-#include "regret_rows.hpp"
+#include "bench_report.hpp"
 
 #include <fmt/format.h>
 
-#include "detp/validate/cli/report/columns.hpp"
+#include "detp/validate/cli/report/answer_rows.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/table.hpp"
 

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <functional>
 
-#include "choose_map_report.hpp"
-#include "detp/validate/cli/text/text_blocks.hpp"
-#include "detp/validate/map/agreement.hpp"
-#include "detp/validate/map/map_labels.hpp"
-#include "detp/validate/picture/number_labels.hpp"
-#include "detp/validate/picture/technique_sign.hpp"
-#include "plain_ratio.hpp"
+#include "choose_map.hpp"
+#include "detp/validate/cli/text/screen.hpp"
+#include "detp/validate/cli/text/words.hpp"
+#include "detp/validate/map/map_summary.hpp"
+#include "detp/validate/picture/labels.hpp"
 
 namespace detp::cli {
 namespace {

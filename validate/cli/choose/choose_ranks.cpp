@@ -1,4 +1,4 @@
-#include "choose_ranks.hpp"
+#include "choose_report.hpp"
 
 #include <fmt/format.h>
 

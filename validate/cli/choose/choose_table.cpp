@@ -1,4 +1,4 @@
-#include "choose_table.hpp"
+#include "choose_parts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "choose_rows.hpp"
 #include "detp/model/rank/extrapolation.hpp"
-#include "detp/validate/cli/report/extrapolated.hpp"
-#include "detp/validate/cli/text/text_table.hpp"
-#include "measured_report.hpp"
-#include "plain_ratio.hpp"
+#include "detp/validate/cli/report/prediction_report.hpp"
+#include "detp/validate/cli/text/table.hpp"
+#include "detp/validate/cli/text/words.hpp"
 
 namespace detp::cli {
 namespace {

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 
+#include "choose_parts.hpp"
 #include "choose_report.hpp"
-#include "choose_rival.hpp"
-#include "choose_rows.hpp"
-#include "choose_table.hpp"
-#include "choose_tips.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
-#include "measured_report.hpp"
-#include "plain_ratio.hpp"
+#include "detp/validate/cli/text/words.hpp"
 
 namespace detp::cli {
 namespace {

@@ -1,17 +1,15 @@
-#include "measured_report.hpp"
+#include "choose_parts.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "choose_rows.hpp"
 #include "detp/validate/choice/prediction_error.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/table.hpp"
-#include "plain_ratio.hpp"
+#include "detp/validate/cli/text/words.hpp"
 
 namespace detp::cli {
-namespace {}  // namespace
 
 std::string why_not_measured(const validate::Analysis& analysis, const validate::Analysed& run) {
   if (run.given_up_after) return fmt::format("given up after {:.2g} s", *run.given_up_after);

@@ -8,16 +8,13 @@
 #include "detp/model/rank/registry.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
-#include "detp/validate/cli/options/sphere_stops.hpp"
-#include "detp/validate/cli/options/unit_cost_option.hpp"
+#include "detp/validate/cli/options/cost_options.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/report/answer_rows.hpp"
-#include "detp/validate/cli/report/columns.hpp"
-#include "detp/validate/cli/report/extrapolated.hpp"
+#include "detp/validate/cli/report/prediction_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
-#include "detp/validate/cli/text/shell_word.hpp"
-#include "model_outlook.hpp"
-#include "model_text.hpp"
+#include "detp/validate/cli/text/words.hpp"
+#include "model_answer.hpp"
 
 namespace detp::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "model_outlook.hpp"
+#include "model_answer.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "model_text.hpp"
+#include "model_answer.hpp"
 
 #include <fmt/format.h>
 
@@ -104,6 +104,7 @@ std::string best_parameters_line(const ModelQuestion& question, const ModelAnswe
 
 std::string counting_command(const ModelQuestion& question, const ModelAnswer& answer, const std::string& workload) {
   using enum Technique;
+  if (answer.json.value("k_max", std::int64_t{1}) == 0) return "";
   if (const auto* cache = std::get_if<SphereCacheParameters>(&answer.parameters))
     return fmt::format("command   detp validate {} --experiments sphere-cache --ratio {}\n", workload, cache->ratio);
   const bool index = question.technique == octree || question.technique == grid;

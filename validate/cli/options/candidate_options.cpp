@@ -7,8 +7,12 @@
 #include <stdexcept>
 #include <vector>
 
+#include "detp/model/optimum/best_published_ratio.hpp"
+#include "detp/model/optimum/best_ratio.hpp"
+#include "detp/model/sphere_cache/sphere_count.hpp"
 #include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/lists/simd/instruction_sets.hpp"
 
 namespace detp::cli {
 namespace {
@@ -118,6 +122,36 @@ model::FixedParameters CandidateOptions::fixed_parameters(Technique chosen) cons
   }
   if (stop) require_known(spheres_option);
   return fixed;
+}
+
+void InstructionSetOption::add_to(CLI::App& command, const std::string& whose) {
+  command
+      .add_option("--instruction-set", sets_,
+                  "instruction set of " + whose + ": AVX3 (AVX-512), AVX2, SSE4; default: the best of this machine")
+      ->delimiter(',');
+}
+
+std::vector<std::string> InstructionSetOption::sets() const {
+  if (sets_.empty()) return {""};
+  for (const std::string& set : sets_) const sim::stream::OnlyInstructionSet here(set);
+  return sets_;
+}
+
+std::string InstructionSetOption::only() const {
+  const std::vector<std::string> all = sets();
+  if (all.size() > 1) throw std::invalid_argument("--instruction-set takes only one here");
+  return all.front();
+}
+
+std::int64_t own_spheres(const Workload& workload, Form form, RadiusRatio ratio) {
+  return model::sphere_count(form, ratio, {workload.disc_radius}, {workload.sphere_radius});
+}
+
+SphereStops sphere_stops(const Workload& workload, const UnitCosts& costs, Form form, RadiusRatio ratio) {
+  const std::int64_t max = own_spheres(workload, form, ratio);
+  if (max == 0) return {};
+  return {max, form == Form::published ? model::published::best_stop(workload, costs, ratio)
+                                       : model::best_stop(workload, costs, ratio).spheres};
 }
 
 }  // namespace detp::cli

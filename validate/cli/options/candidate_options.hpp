@@ -1,15 +1,36 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "detp/model/rank/choose.hpp"
-#include "sphere_stops.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
 #include "value_lists.hpp"
 
+/// What is searched, and how: a technique, its parameters, engine and instruction set.
 namespace detp::cli {
+
+/// The number of spheres k of a sphere cache if --spheres is not a number.
+enum class SphereStop {
+  max,  ///< SphereStops::max
+  best  ///< SphereStops::best
+};
+
+/// Two numbers of spheres k for a sphere cache of ratio Q.
+struct SphereStops {
+  std::int64_t max = 0;   ///< number of spheres that can hold a disc, by the published or the corrected form
+  std::int64_t best = 0;  ///< number of spheres with the least predicted time, by the same form; 0 if max is 0
+};
+
+/// The number of spheres k of a form: that of SphereStops::max, without the search for the best.
+[[nodiscard]] std::int64_t own_spheres(const Workload& workload, Form form, RadiusRatio ratio);
+
+/// Throws as model::sphere_count and model::best_stop do.
+[[nodiscard]] SphereStops sphere_stops(const Workload& workload, const UnitCosts& costs, Form form, RadiusRatio ratio);
 
 /// The help of --engine.
 inline constexpr const char* engine_help =
@@ -56,6 +77,22 @@ class CandidateOptions {
   void set(const Parameter& parameter, const std::string& text);
 
   std::map<std::string_view, ParameterValue> given_;
+};
+
+/// --instruction-set: what other machines would do.
+class InstructionSetOption {
+ public:
+  void add_to(CLI::App& command, const std::string& whose);
+
+  /// The sets in the order given; one empty name, all that the machine has, if none was given. Throws std::invalid_argument for a set that
+  /// the kernels were not compiled for, or that this machine lacks.
+  [[nodiscard]] std::vector<std::string> sets() const;
+
+  /// The only set. Throws std::invalid_argument if several were given, too.
+  [[nodiscard]] std::string only() const;
+
+ private:
+  std::vector<std::string> sets_;
 };
 
 }  // namespace detp::cli

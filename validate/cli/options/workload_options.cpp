@@ -20,21 +20,8 @@ std::string switched_effects() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-}  // namespace
-
-void require_numbers(const validate::JobRequest& request) {
-  const auto need = [](bool given, std::string_view what, std::string_view option) {
-    if (!given) throw std::invalid_argument(fmt::format("without a scene, {} is needed: {}", what, option));
-  };
-  if (!request.samples && !request.disc_radius && !request.sphere_radius && !request.scene_side)
-    throw std::invalid_argument(
-        "a scene is needed (a mesh, or a built-in one as @tree); or --discs FILE and --ray-file FILE; or numbers: "
-        "--samples N --disc-radius d --scene-side s");
-  need(request.samples.has_value(), "the number of samples", "--samples N");
-  need(request.disc_radius.has_value(), "the disc radius", "--disc-radius d");
-  need(request.sphere_radius || request.scene_side, "its size", "--sphere-radius r0 or --scene-side s");
-}
-
+/// "isotropic", "photons", "mixed" or "mixed:0.5:0.25:0.25". Throws std::invalid_argument for other text, and unless shares
+/// add up to 1.
 std::pair<sim::Field, sim::FieldShares> parse_field(const std::string& text) {
   if (!text.starts_with("mixed")) {
     const bool lines = one_of("--field", text, {"isotropic", "photons", "mixed"}) == "isotropic";
@@ -58,6 +45,21 @@ std::pair<sim::Field, sim::FieldShares> parse_field(const std::string& text) {
   }
   sim::check(shares);
   return {sim::Field::mixed, shares};
+}
+
+}  // namespace
+
+void require_numbers(const validate::JobRequest& request) {
+  const auto need = [](bool given, std::string_view what, std::string_view option) {
+    if (!given) throw std::invalid_argument(fmt::format("without a scene, {} is needed: {}", what, option));
+  };
+  if (!request.samples && !request.disc_radius && !request.sphere_radius && !request.scene_side)
+    throw std::invalid_argument(
+        "a scene is needed (a mesh, or a built-in one as @tree); or --discs FILE and --ray-file FILE; or numbers: "
+        "--samples N --disc-radius d --scene-side s");
+  need(request.samples.has_value(), "the number of samples", "--samples N");
+  need(request.disc_radius.has_value(), "the disc radius", "--disc-radius d");
+  need(request.sphere_radius || request.scene_side, "its size", "--sphere-radius r0 or --scene-side s");
 }
 
 void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Values> axes) {

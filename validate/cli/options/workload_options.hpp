@@ -3,7 +3,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "common_options.hpp"
@@ -35,10 +34,6 @@ class WorkloadOptions {
 
 /// Throws std::invalid_argument, naming the option, if a number of a workload without a scene is missing.
 void require_numbers(const validate::JobRequest& request);
-
-/// "isotropic", "photons", "mixed" or "mixed:0.5:0.25:0.25". Throws std::invalid_argument for other text, and unless shares
-/// add up to 1.
-[[nodiscard]] std::pair<sim::Field, sim::FieldShares> parse_field(const std::string& text);
 
 /// --material and --group.
 void add_face_names(CLI::App& command, sim::FaceNames& names);

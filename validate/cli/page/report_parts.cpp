@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detp/validate/cli/text/shell_word.hpp"
-#include "detp/validate/picture/number_labels.hpp"
+#include "detp/validate/cli/text/words.hpp"
+#include "detp/validate/picture/labels.hpp"
 #include "detp/validate/report/parts.hpp"
 
 namespace detp::cli {
@@ -16,6 +16,21 @@ namespace {
 using validate::list;
 using validate::number;
 using validate::words;
+
+/// Seconds that a part takes, by what `scene` found: for each second of tracing and of reading, and for each 100 000 samples and triangles.
+struct ForecastRule {
+  double tracing = 0;
+  double reading = 0;
+  double samples = 0;
+  double triangles = 0;
+  double fixed = 0;
+
+  [[nodiscard]] double seconds(const ReportScale& scale) const {
+    constexpr double many = 1e5;
+    return tracing * scale.tracing_seconds + reading * scale.reading_seconds + samples * scale.samples / many +
+           triangles * scale.triangles / many + fixed;
+  }
+};
 
 void add(std::vector<std::string>& all, const std::vector<std::string>& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -56,7 +71,7 @@ std::vector<double> map_radii(double here, bool quick) {
   return radii;
 }
 
-std::string joined(const std::vector<double>& values) {
+std::string comma_list(const std::vector<double>& values) {
   std::string text;
   for (const double value : values)
     text += fmt::format("{}{}", text.empty() ? "" : ",",
@@ -141,12 +156,6 @@ ReportScale scale_of(const Json& scene_answer) {
           .tracing_seconds = number(scene_answer, "trace_seconds").value_or(0)};
 }
 
-double ForecastRule::seconds(const ReportScale& scale) const {
-  constexpr double many = 1e5;
-  return tracing * scale.tracing_seconds + reading * scale.reading_seconds + samples * scale.samples / many +
-         triangles * scale.triangles / many + fixed;
-}
-
 std::vector<ReportPart> report_parts(const ReportOptions& options, const ReportScale& scale) {
   // Least squares of the relative errors on 17 scenes, 100 000 rays (AMD EPYC, Zen 3, two threads). `accuracy` does not take --rays, and by
   // default it makes further pilots and runs its answer: 2.9 times as long in the geometric mean, from 1 to 12 times.
@@ -170,8 +179,9 @@ std::vector<ReportPart> report_parts(const ReportOptions& options, const ReportS
   if (options.quick) add(accuracy.words, {"--effort", "quick"});
   const std::vector<double> rays = map_rays(options.rays.value_or(1e5), options.quick);
   const std::vector<double> radii = map_radii(scale.disc_radius, options.quick);
-  ReportPart map{.name = "map",
-                 .words = {"choose", options.scene, "--map", "--rays", joined(rays), "--disc-radius", joined(radii)}};
+  ReportPart map{
+      .name = "map",
+      .words = {"choose", options.scene, "--map", "--rays", comma_list(rays), "--disc-radius", comma_list(radii)}};
   add(map.words, scene_words(options));
   ReportPart verdicts{.name = "verdicts", .words = {"validate", options.scene}};
   add(verdicts.words, workload_words(options));

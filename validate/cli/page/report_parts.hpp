@@ -44,17 +44,6 @@ struct ReportScale {
   double tracing_seconds = 0;  ///< of the rays
 };
 
-/// Seconds that a part takes, by what `scene` found: for each second of tracing and of reading, and for each 100 000 samples and triangles.
-struct ForecastRule {
-  double tracing = 0;
-  double reading = 0;
-  double samples = 0;
-  double triangles = 0;
-  double fixed = 0;
-
-  [[nodiscard]] double seconds(const ReportScale& scale) const;
-};
-
 [[nodiscard]] ReportPart scene_part(const ReportOptions& options);
 [[nodiscard]] ReportScale scale_of(const Json& scene_answer);
 

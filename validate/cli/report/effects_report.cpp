@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "detp/model/rank/predict.hpp"
-#include "detp/validate/cli/text/text_table.hpp"
+#include "detp/validate/cli/text/table.hpp"
 
 namespace detp::cli {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 
-#include "agreed.hpp"
 #include "detp/model/optimum/best_ratio.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "detp/model/vocabulary/nearest_name.hpp"
@@ -12,14 +11,11 @@
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
-#include "detp/validate/cli/options/costs_in_use.hpp"
-#include "detp/validate/cli/options/sphere_stops.hpp"
+#include "detp/validate/cli/options/cost_options.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
 #include "detp/validate/stopping/job_batches.hpp"
-#include "hit_files.hpp"
-#include "run_prediction.hpp"
 #include "run_report.hpp"
 #include "run_until.hpp"
 #include "timed_run.hpp"
@@ -163,8 +159,6 @@ void check_options(const RunOptions& options, std::size_t rows) {
     throw std::invalid_argument(
         "--material and --group say of which samples the error is: give --target-noise or --target-error");
   static_cast<void>(share_of(options));
-  if (options.form && options.target.given())
-    throw std::invalid_argument("--form changes the predicted counts; a run until an error has none");
   if (options.target.checkpoint && (!options.target.given() || rows > 1))
     throw std::invalid_argument("--checkpoint keeps one run with --target-noise or --target-error");
 }
@@ -201,6 +195,8 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const validat
 /// Throws std::invalid_argument if a technique has no formulas of the form requested, or none is named.
 std::optional<Form> form_of(const RunOptions& options) {
   if (!options.form) return std::nullopt;
+  if (options.target.given())
+    throw std::invalid_argument("--form changes the predicted counts; a run until an error has none");
   const Form form = choice_named<Form>(*options.form).value();
   if (!options.candidate.technique)
     throw std::invalid_argument("--form is of one technique's formulas: give --technique");
@@ -232,6 +228,7 @@ Needs needs_of(RunOptions& options, std::size_t rows) {
     needs.paths = needs.paths || record.needs_scene;
     needs.rays = needs.rays || !record.needs_scene;
     static_cast<void>(paths_of(options, estimator));
+    static_cast<void>(form_of(options));
   }
   if (options.paths && !needs.paths) throw std::invalid_argument("--paths is for --estimator gather");
   return needs;

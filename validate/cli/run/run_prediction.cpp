@@ -1,4 +1,4 @@
-#include "run_prediction.hpp"
+#include "run_report.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -9,12 +9,14 @@
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/rank/registry.hpp"
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/validate/accuracy/accuracy_costs.hpp"
-#include "detp/validate/cli/process_clock.hpp"
 
 namespace detp::cli {
 namespace {
+
+const sim::Stopwatch since_start;  // since the program was loaded
 
 /// By the paper's formulas, at the number of spheres or the depth of the run.
 Counts<double> published_counts(const Workload& workload, const Candidate& candidate) {
@@ -94,7 +96,7 @@ Whole measured_whole(const validate::Job& job, const RunAnswer& answer) {
       .search = answer.run.prepare_seconds + phases.search};
   if (answer.repeat > 0) seconds.search += std::accumulate(answer.timing.all.begin(), answer.timing.all.end(), 0.0);
   if (answer.until) seconds.search = std::max(0.0, answer.until->seconds - seconds.trace);
-  seconds.rest = std::max(0.0, seconds_since_start() - seconds.total());
+  seconds.rest = std::max(0.0, since_start.seconds() - seconds.total());
   return {seconds, validate::measured_peak_bytes()};
 }
 

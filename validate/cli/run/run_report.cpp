@@ -10,18 +10,22 @@
 #include "detp/sim/photons/light_notes.hpp"
 #include "detp/sim/technique/ranked.hpp"
 #include "detp/validate/calibration/sum_costs.hpp"
-#include "detp/validate/cli/options/sphere_stops.hpp"
-#include "detp/validate/cli/report/columns.hpp"
+#include "detp/validate/cli/options/candidate_options.hpp"
+#include "detp/validate/cli/report/answer_rows.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
-#include "detp/validate/cli/report/whole_report.hpp"
+#include "detp/validate/cli/report/prediction_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
-#include "detp/validate/cli/text/text_table.hpp"
+#include "detp/validate/cli/text/table.hpp"
 #include "detp/validate/stopping/job_batches.hpp"
-#include "run_prediction.hpp"
 #include "run_until.hpp"
 
 namespace detp::cli {
 namespace {
+
+/// Whether a technique found the pairs, or the nearest photons.
+bool has_technique(const RunAnswer& answer) {
+  return sim::record_of(answer.estimator).finds_pairs || answer.estimator == sim::Estimator::nearest;
+}
 
 Json seconds_json(const Timing& timing, int repeat) {
   Json json{{"total", timing.total()},

@@ -6,11 +6,13 @@
 #include "detp/validate/accuracy/error_split.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/cli/report/answer_rows.hpp"
+#include "detp/validate/cli/report/prediction_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/stopping/run_until.hpp"
 #include "detp/validate/whole/whole.hpp"
 #include "timed_run.hpp"
 
+/// The answer of `detp run`: its record, what it was predicted to take, and its whole wait.
 namespace detp::cli {
 
 /// Of an estimator at the radius of a run.
@@ -68,11 +70,6 @@ struct RunAnswer {
 /// The estimator needs no rays.
 [[nodiscard]] inline bool gathers(const RunAnswer& answer) { return sim::record_of(answer.estimator).needs_scene; }
 
-/// Whether a technique found the pairs, or the nearest photons.
-[[nodiscard]] inline bool has_technique(const RunAnswer& answer) {
-  return sim::record_of(answer.estimator).finds_pairs || answer.estimator == sim::Estimator::nearest;
-}
-
 /// Hits, counts and seconds, and the predictions of the candidate's closed form if it has one. A stopped run has no
 /// `hits` and no irradiance. It has `hits_so_far`, the hits of the finished rays or discs, and if random rays were
 /// finished, `hits_estimate` for all rays.
@@ -85,5 +82,23 @@ struct RunAnswer {
 /// `verbose`: also the effects, and the table of counts. Without it, nothing is measured.
 [[nodiscard]] std::string to_text(const validate::Job& job, const RunAnswer& answer, const Screen& screen,
                                   bool verbose);
+
+/// The counts of the choice come from a pilot. Of brute force it knows all but the hits.
+[[nodiscard]] bool is_predicted(const RunAnswer& answer);
+
+/// The paper has formulas for the technique's counts.
+[[nodiscard]] bool is_published(Technique technique);
+
+/// Those of the paper's formulas if they are requested. Else the counts that a pilot predicted, or else the closed form on this workload: the job's, or what is known of it without measuring. Nothing if the
+/// candidate has none, and of other estimators and runs until an error.
+[[nodiscard]] std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer);
+
+/// Of the whole command: of pairs from such counts, of estimators that look at photons by AccuracyCosts and the hits expected of closed forms.
+/// Nothing for backward paths, whose rays are known only by a pilot (`accuracy`), and for runs until an error.
+[[nodiscard]] std::optional<Whole> predicted_whole(const validate::Job& job, const RunAnswer& answer,
+                                                   const std::optional<Counts<double>>& counts);
+
+/// Until now.
+[[nodiscard]] Whole measured_whole(const validate::Job& job, const RunAnswer& answer);
 
 }  // namespace detp::cli

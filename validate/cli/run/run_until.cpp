@@ -8,19 +8,18 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "agreed.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/accuracy/accuracy_pilot.hpp"
-#include "detp/validate/accuracy/two_radii.hpp"
+#include "detp/validate/accuracy/radii.hpp"
 #include "detp/validate/checkpoint/checkpoint_file.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
-#include "detp/validate/job/job_digest.hpp"
+#include "detp/validate/job/job.hpp"
 #include "detp/validate/stopping/job_batches.hpp"
 #include "detp/validate/stopping/shared_batches.hpp"
-#include "detp/validate/stopping/until_json.hpp"
+#include "timed_run.hpp"
 
 namespace detp::cli {
 namespace {

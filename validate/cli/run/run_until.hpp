@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "agreed.hpp"
 #include "detp/sim/scene/selection.hpp"
 #include "detp/validate/stopping/execute_until.hpp"
 #include "run_report.hpp"
+#include "timed_run.hpp"
 
 /// Runs until an error is reached: `detp run --target-noise` and `--target-error`.
 namespace detp::cli {

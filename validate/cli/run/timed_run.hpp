@@ -1,16 +1,32 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <stop_token>
+#include <string>
 #include <vector>
 
+#include "detp/model/rank/registry.hpp"
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/estimate/estimate.hpp"
+#include "detp/sim/ranks/ranks.hpp"
 #include "detp/sim/reference/missed_light.hpp"
 #include "detp/sim/technique/ranked.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/job/job.hpp"
 
+/// A run of a candidate on which all ranks agree, its times, and the files of what it found.
 namespace detp::cli {
+
+/// A candidate, and the number of threads of its run.
+struct Requested {
+  Candidate candidate = {};
+  int threads = 1;
+};
+
+/// What rank 0 requests, on all ranks; `ranks` null: on this process alone.
+[[nodiscard]] Requested agreed(sim::Ranks* ranks, const std::function<Requested()>& of_first);
 
 /// A run over all rays of a job. The rays are in memory or a stream.
 struct TimedRun {
@@ -67,5 +83,15 @@ struct Timing {
 [[nodiscard]] Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const TimedRun& counted,
                                int repeat, const sim::RunOptions& options, const sim::ReportPhase& progress,
                                const Together& together = {});
+
+// The files of what a run found appear complete or not at all. Throw sim::FileError, and sim::Stopped on a stop request.
+
+/// "ray,disc" for each pair. `order`: numbers of the rays in their file; empty if they have the file's order.
+void write_pairs(const std::string& path, const TimedRun& run, const std::vector<std::uint32_t>& order,
+                 const std::stop_token& stop);
+
+/// Hits and irradiance of each disc; with standard errors and bounds if they were asked for.
+void write_per_disc(const std::string& path, const TimedRun& run, const std::vector<std::uint32_t>& vertices,
+                    const std::stop_token& stop);
 
 }  // namespace detp::cli

@@ -18,7 +18,7 @@ constexpr std::size_t widest_text = 120;
 constexpr std::string_view end_of_style = "\033[0m";
 
 /// By Style.
-constexpr std::array<std::string_view, 6> codes{"", "\033[1m", "\033[32m", "\033[31m", "\033[33m", "\033[2m"};
+constexpr std::array<std::string_view, 6> colour_codes{"", "\033[1m", "\033[32m", "\033[31m", "\033[33m", "\033[2m"};
 
 std::string_view environment(const char* name) {
   const char* const value = std::getenv(name);
@@ -40,7 +40,7 @@ bool shows_colours(int stream) {
 
 std::string_view code_at(std::string_view text) {
   if (text.starts_with(end_of_style)) return end_of_style;
-  for (const std::string_view code : codes)
+  for (const std::string_view code : colour_codes)
     if (!code.empty() && text.starts_with(code)) return code;
   return "";
 }
@@ -64,6 +64,25 @@ std::string wrapped_paragraph(std::string_view paragraph, std::size_t width, std
   return lines;
 }
 
+constexpr std::size_t between_blocks = 2;
+
+bool fits(std::size_t width, const Screen& screen) { return screen.width == 0 || width <= screen.width; }
+
+std::string strip(const std::vector<const TextBlock*>& blocks) {
+  std::string text;
+  for (std::size_t i = 0; i < blocks.front()->lines.size(); ++i) {
+    std::string line;
+    for (const TextBlock* block : blocks) {
+      const std::string& part = block->lines[i];
+      line += (block == blocks.front() ? "" : std::string(between_blocks, ' ')) + part;
+      line += std::string(block->width() - columns_of(part), ' ');
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text + "\n";
+}
+
 }  // namespace
 
 std::size_t Screen::text_width() const { return width == 0 ? widest_text : std::min(width, widest_text); }
@@ -75,7 +94,7 @@ Screen screen_of(int stream, Colour colour) {
 std::string styled(const Screen& screen, Style style, std::string_view text) {
   std::string shown(text);
   if (screen.colour && style != Style::plain)
-    shown = std::string(codes[static_cast<std::size_t>(style)]) + shown + std::string(end_of_style);
+    shown = std::string(colour_codes[static_cast<std::size_t>(style)]) + shown + std::string(end_of_style);
   return shown;
 }
 
@@ -117,6 +136,32 @@ std::string legend(const Screen& screen, std::string_view text) {
   std::string lines = wrapped(text, screen.text_width());
   lines.pop_back();
   return styled(screen, Style::faint, lines) + "\n";
+}
+
+std::size_t TextBlock::width() const {
+  std::size_t widest = 0;
+  for (const std::string& line : lines) widest = std::max(widest, columns_of(line));
+  return widest;
+}
+
+std::string side_by_side(const std::vector<TextBlock>& blocks, const Screen& screen) {
+  std::string text;
+  for (std::size_t next = 1; next < blocks.size();) {
+    std::vector<const TextBlock*> shown{&blocks.front()};
+    std::size_t width = blocks.front().width();
+    do {
+      width += between_blocks + blocks[next].width();
+      shown.push_back(&blocks[next++]);
+    } while (next < blocks.size() && fits(width + between_blocks + blocks[next].width(), screen));
+    text += strip(shown);
+  }
+  return text;
+}
+
+bool is_too_wide(const std::vector<TextBlock>& blocks, const Screen& screen) {
+  return std::any_of(blocks.begin() + 1, blocks.end(), [&](const TextBlock& block) {
+    return !fits(blocks.front().width() + between_blocks + block.width(), screen);
+  });
 }
 
 }  // namespace detp::cli

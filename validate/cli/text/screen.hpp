@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
-/// The width in columns of the output stream, and whether it shows colours. Text is formatted accordingly.
+/// The width in columns of the output stream, and whether it shows colours. Text is formatted accordingly: sentences, and
+/// blocks side by side.
 namespace detp::cli {
 
 /// The value of --color: text is coloured if the stream shows colours, always, or never.
@@ -45,5 +47,19 @@ enum class Style { plain, strong, good, bad, doubtful, faint };
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t width, std::size_t indent = 0);
 
 [[nodiscard]] std::string legend(const Screen& screen, std::string_view text);
+
+struct TextBlock {
+  std::vector<std::string> lines;
+
+  /// That of the longest line.
+  [[nodiscard]] std::size_t width() const;
+};
+
+/// The blocks after the first one, side by side as far as they fit the screen, and then below. The first block (labels
+/// of the lines) begins each such strip, which an empty line ends. All blocks must have equally many lines.
+[[nodiscard]] std::string side_by_side(const std::vector<TextBlock>& blocks, const Screen& screen);
+
+/// Whether the first block and another one do not fit the screen.
+[[nodiscard]] bool is_too_wide(const std::vector<TextBlock>& blocks, const Screen& screen);
 
 }  // namespace detp::cli

@@ -1,4 +1,4 @@
-#include "claims_until.hpp"
+#include "validate_report.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "detp/validate/cli/options/number_option.hpp"
-#include "detp/validate/cli/report/columns.hpp"
-#include "detp/validate/job/job_digest.hpp"
+#include "detp/validate/cli/report/answer_rows.hpp"
+#include "detp/validate/job/job.hpp"
 
 namespace detp::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "sweep_report.hpp"
+#include "validate_report.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "detp/sim/files/output_file.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
-#include "detp/validate/cli/text/text_table.hpp"
+#include "detp/validate/cli/text/table.hpp"
 
 namespace detp::cli {
 namespace {

@@ -1,17 +1,15 @@
-#include "claims_until.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/claims/experiments.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/options/value_lists.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
-#include "detp/validate/cli/report/columns.hpp"
+#include "detp/validate/cli/report/answer_rows.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
-#include "detp/validate/cli/text/text_table.hpp"
-#include "sweep_report.hpp"
-#include "validate_summary.hpp"
+#include "detp/validate/cli/text/table.hpp"
+#include "validate_report.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "detp/validate/cli/bench/regret_report.hpp"
+#include "detp/validate/cli/bench/bench_report.hpp"
 
 #include <doctest/doctest.h>
 

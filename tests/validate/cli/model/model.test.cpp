@@ -289,6 +289,30 @@ TEST_SUITE("known answer") {
     CHECK_FALSE(json.contains("rays_for_deviation"));
   }
 
+  TEST_CASE("the text answers in sentences: T, the best Q and k, the other form, the command that counts it") {
+    const std::string line = "model --rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2 --ratio 0.65";
+    const Json json = result_of(line);
+    const std::string text = detp(line).out;
+    CHECK(text.starts_with("technique sphere-cache, Q 0.65, k 11, corrected form\n"));
+    for (const char* said : {"\nT         1.038e+08 = T_R (making lists of rays) ", "\nbest      Q = ", " less T\n",
+                             "\nk         11, all spheres that can hold a disc; at this Q k = 7 is the fastest",
+                             "\npublished T = 3.789e+07 with k = 12", "\nhits      1.648e+05 expected, 1.65 a disc\n",
+                             "\ncommand   detp validate --samples 100000 --disc-radius 0.01 --scene-side 2 "
+                             "--experiments sphere-cache --ratio 0.65\n"})
+      CHECK_MESSAGE(text.find(said) != std::string::npos, said, text);
+    CHECK(text.find("rebuild_time") == std::string::npos);
+    const std::string verbose = detp(line + " --verbose").out;
+    CHECK(verbose.starts_with(text));
+    CHECK(verbose.find("\nrebuild_time               1.0305421e+08\n") != std::string::npos);
+    CHECK(detp(line + " --form published")
+              .out.find("\ncorrected T = 1.038e+08 with k = 11, 2.7 of the published form\n") != std::string::npos);
+    CHECK(detp("model @cornell --technique octree").out.find("\ncaution   outside of what was compared") !=
+          std::string::npos);
+    CHECK(detp("model --samples 10 --disc-radius 1 --sphere-radius 1")
+              .out.find("\nk         0: no sphere holds a disc") != std::string::npos);
+    CHECK(json.at("k") == 11);
+  }
+
   TEST_CASE("side and sphere radius follow from each other, and a percentage is one of the side") {
     const Json side = result_of("model --samples 10 --disc-radius 0.05 --scene-side 2").at("inputs");
     CHECK(side.at("sphere_radius").get<double>() == near(std::sqrt(3.0) + 0.05));

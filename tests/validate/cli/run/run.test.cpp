@@ -72,6 +72,32 @@ std::vector<std::string> sorted_rows(const std::string& csv) {
 }  // namespace
 
 TEST_SUITE("end to end") {
+  TEST_CASE(
+      "--form changes the prediction beside the counts, not the counts: the published one is that of model at the "
+      "run's k") {
+    const std::string numbers = " --rays 5000 --samples 4000 --disc-radius 0.02 --scene-side 2 --technique ";
+    const auto ask = [&](const std::string& rest) { return result_of("run" + numbers + rest); };
+    const Json published = ask("sphere-cache --ratio 0.65 --form published");
+    const Json corrected = ask("sphere-cache --ratio 0.65 --form corrected");
+    CHECK(published.at("counts") == corrected.at("counts"));
+    CHECK(published.at("inputs").at("form") == "published");
+    CHECK(corrected.at("predicted") == ask("sphere-cache --ratio 0.65").at("predicted"));
+    const Json model = result_of("model" + numbers + "sphere-cache --ratio 0.65 --form published --spheres " +
+                                 published.at("k").dump());
+    for (const char* term : {"cull_tests", "disc_tests", "culls"})
+      CHECK(published.at("predicted").at(term) == model.at("counts").at(term));
+    const Json octree = ask("octree --depth 3 --form published");
+    CHECK(octree.at("predicted").at("disc_tests") == 5000.0 * 4000 / 64);
+    CHECK(octree.at("predicted").at("nodes") == 5000.0 * 8);
+    const std::string text = detp("run" + numbers + "sphere-cache --ratio 0.65 --form published").out;
+    CHECK(text.find("\nformulas  published, in tests: T_R ") != std::string::npos);
+    CHECK(text.find(" spheres can hold a disc, which detp model takes: --spheres ") != std::string::npos);
+    CHECK(detp("run @cornell --rays 2000 --technique grid").out.find("formulas") == std::string::npos);
+    check_refused({{"run @cornell --form published", "give --technique"},
+                   {"run @cornell --technique grid --form published", "the paper has no formulas for grid"},
+                   {"run @cornell --technique octree --form published --target-noise 5%", "a run until an error"}});
+  }
+
   TEST_CASE("own discs and rays: brute force finds the hits of the definition, in input order") {
     const OwnData data;
     for (const bool front_facing : {false, true}) {

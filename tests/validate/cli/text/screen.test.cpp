@@ -18,6 +18,8 @@ std::size_t widest_line(const std::string& text) {
   return widest;
 }
 
+const std::vector<cli::TextBlock> blocks{{{"", "1", "22"}}, {{"a", "bb", "c"}}, {{"A", "BBBB", "C"}}};
+
 }  // namespace
 
 TEST_SUITE("identities") {
@@ -77,6 +79,20 @@ TEST_SUITE("end to end") {
     CHECK(coloured(detp(line + " --color always").out));
     for (const std::string format : {" --format json", " --format csv"})
       CHECK_FALSE(coloured(detp(line + " --color always" + format).out));
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("blocks stand side by side if they fit, else below, each time with the first block") {
+    CHECK(cli::side_by_side(blocks, {}) == "    a   A\n1   bb  BBBB\n22  c   C\n\n");
+    CHECK(cli::side_by_side(blocks, {.width = 12}) == cli::side_by_side(blocks, {}));
+    CHECK(cli::side_by_side(blocks, {.width = 11}) == "    a\n1   bb\n22  c\n\n    A\n1   BBBB\n22  C\n\n");
+  }
+
+  TEST_CASE("blocks are too wide if one of them does not fit beside the first") {
+    CHECK_FALSE(cli::is_too_wide(blocks, {}));
+    CHECK_FALSE(cli::is_too_wide(blocks, {.width = 8}));
+    CHECK(cli::is_too_wide(blocks, {.width = 7}));
   }
 }
 

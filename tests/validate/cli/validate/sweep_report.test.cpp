@@ -1,4 +1,4 @@
-#include "detp/validate/cli/validate/sweep_report.hpp"
+#include "detp/validate/cli/validate/validate_report.hpp"
 
 #include <doctest/doctest.h>
 

@@ -9,6 +9,28 @@
 namespace detp::support {
 
 TEST_SUITE("end to end") {
+  TEST_CASE("--ratio counts sphere caches of these Q, --form shows one form of each claim; both forms are judged") {
+    const std::string line =
+        "validate --samples 500 --rays 32000 --disc-radius 0.05 --experiments sphere-cache --ratio 0.5 ";
+    const Json both = result_of(line);
+    CHECK(both.at("inputs").at("ratio") == Json{0.5});
+    CHECK(both.at("claims").back().at("id") == "rebuild-time-structural-0.5.corrected");
+    CHECK(detp(line).out.find("T_R per ray, t = 1: Q = 0.5\n") != std::string::npos);
+    for (const std::string form : {"published", "corrected"}) {
+      Json shown = Json::array();
+      for (Json claim : both.at("claims"))
+        if (claim.at("form") == form) shown.push_back(claim.at("id"));
+      const Json one = result_of(line + "--form " + form);
+      Json ids = Json::array();
+      for (const Json& claim : one.at("claims")) ids.push_back(claim.at("id"));
+      CHECK(ids == shown);
+      CHECK(ids.size() >= 4);
+      CHECK(one.at("summary") == both.at("summary"));
+    }
+    CHECK(result_of(line + "--ratio 0.4:0.6:0.1,0.5").at("inputs").at("ratio") == Json{0.5, 0.4, 0.6});
+    check_refused({{"validate --ratio 0", "--ratio must be between 0 and 1"}, {"validate --ratio 1.5", "(got 1.5)"}});
+  }
+
   TEST_CASE("--experiments leaves out all other experiments") {
     const Json json = result_of("validate @cornell --samples 300 --rays 3200 --experiments lines,effects");
     bool effects = false;
