@@ -5,7 +5,7 @@
 
 cmake_policy(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/debian_python.cmake)
-need_debian_python(notebook-packages cffi ipykernel matplotlib nbconvert pandas)
+need_debian_python(notebook-packages cffi ipykernel matplotlib nbconvert pandas scipy)
 
 set(drawn ${BUILD}/figures)
 file(REMOVE_RECURSE ${drawn})
@@ -39,8 +39,10 @@ if(failed)
   message(SEND_ERROR "${errors}")
 endif()
 
-foreach(table losses maps)
-  execute_process(COMMAND ${python} ${SOURCE}/notebooks-data/${table}.py ${DETP} --quick
+# The other studies take minutes, also with --quick.
+foreach(script losses maps studies/effects studies/stopping_rules)
+  get_filename_component(table ${script} NAME)
+  execute_process(COMMAND ${python} ${SOURCE}/notebooks-data/${script}.py ${DETP} --quick
                   RESULT_VARIABLE failed OUTPUT_VARIABLE made ERROR_VARIABLE errors)
   string(REGEX MATCH "^[^\n]*" columns "${made}")
   file(STRINGS ${SOURCE}/notebooks-data/${table}.csv kept LIMIT_COUNT 1)
