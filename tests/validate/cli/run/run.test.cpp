@@ -357,7 +357,7 @@ TEST_SUITE("end to end") {
     const support::ScratchFolder folder;
     const std::string rays = folder.path("rays.csv");
     CHECK(in_attempts(5, [&] {
-      const Json scene = result_of(words("scene @cornell --samples 50 --rays 20k --write-rays") + Arguments{rays});
+      const Json scene = result_of(words("scene @cornell --samples 50 --rays 200k --write-rays") + Arguments{rays});
       return scene.at("trace_seconds").get<double>() > scene.at("read_seconds").get<double>();
     }));
     const std::string pipe = folder.path("pipe");
