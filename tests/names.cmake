@@ -1,5 +1,5 @@
-# No library defines two types of one name: the linker would join their functions, whatever their layout. Looks at
-# definitions at the beginning of a line outside of unnamed namespaces. Called with -D SOURCE=<top of the project>.
+# No library defines two types of one name: the linker would join their functions, whatever their layout. In validate, one name has one meaning in
+# all namespaces. Looks at definitions at the beginning of a line outside of unnamed namespaces. Called with -D SOURCE=<top of the project>.
 cmake_policy(VERSION 3.25)
 foreach(part model sim validate)
   file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/${part}/*.hpp ${SOURCE}/${part}/*.cpp)
@@ -17,6 +17,9 @@ foreach(part model sim validate)
         string(REGEX REPLACE "^(struct|class|enum class|enum) ([A-Za-z_0-9]+).*" "\\2" type "${line}")
         string(JOIN "" name ${within} "${type}")
         string(REPLACE "{" "::" name "${name}")
+        if(part STREQUAL validate)
+          set(name ${type})
+        endif()
         string(MAKE_C_IDENTIFIER "${part} ${name}" key)
         if(DEFINED ${key})
           message(SEND_ERROR "${part} has two types ${name}: ${${key}} and ${file}")

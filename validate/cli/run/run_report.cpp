@@ -136,7 +136,7 @@ std::optional<RaysTaken> taken_by(const validate::Job& job, const RunAnswer& ans
                    job.light ? std::optional(answer.until->light) : std::nullopt};
 }
 
-std::uint64_t discs_without_hits(const TimedRun& run) {
+std::uint64_t discs_without_hits(const JobRun& run) {
   std::uint64_t count = 0;
   for_each_disc(run, [&](const sim::DiscResult& disc) { count += disc.hits == 0 ? 1 : 0; });
   return count;

@@ -54,7 +54,7 @@ struct RunAnswer {
   std::optional<validate::Choice> choice = {};  ///< by which the candidate was chosen, with its rays in memory
   Engine engine = Engine::simd;
   std::optional<Form> form = {};  ///< requested: of the formulas that predict the counts
-  TimedRun run = {};
+  JobRun run = {};
   Timing timing = {};
   int repeat = 0;               ///< timed runs requested
   bool standard_error = false;  ///< requested

@@ -37,8 +37,8 @@ double predicted_work(const Workload& workload, const Candidate& candidate, Engi
 
 }  // namespace
 
-TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, const sim::RunOptions& options,
-                 const sim::ReportPhase& progress, const Together& together) {
+JobRun run_job(const validate::Job& job, const sim::EstimateRequest& request, const sim::RunOptions& options,
+               const sim::ReportPhase& progress, const Together& together) {
   const Candidate& candidate = request.candidate;
   const bool pairs = record_of(request.estimator).finds_pairs;
   const std::string doing(pairs ? name(candidate.technique) : name(request.estimator));
@@ -67,7 +67,7 @@ TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, 
             std::move(ranked.seconds),   share,
             std::move(ranked.results)};
   }
-  TimedRun run{.outcome = sim::estimate(job.problem(), request, reporting), .prepare_seconds = job.check_seconds};
+  JobRun run{.outcome = sim::estimate(job.problem(), request, reporting), .prepare_seconds = job.check_seconds};
   if (!sim::record_of(request.estimator).needs_scene) {
     run.rays_in_memory = job.rays.size();
     return run;
@@ -80,12 +80,12 @@ TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, 
   return run;
 }
 
-Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const TimedRun& counted, int repeat,
+Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const JobRun& counted, int repeat,
                  const sim::RunOptions& options, const sim::ReportPhase& progress, const Together& together) {
   std::vector<Timing> timings;
   const double each = 1.0 / std::max(1, repeat);
   for (int i = 0; i < repeat; ++i) {
-    const TimedRun run = run_job(job, request, options, sim::part_of(progress, i * each, (i + 1) * each), together);
+    const JobRun run = run_job(job, request, options, sim::part_of(progress, i * each, (i + 1) * each), together);
     if (run.outcome.stopped) break;
     timings.push_back({run.outcome.seconds, run.prepare_seconds, {}});
   }
@@ -109,7 +109,7 @@ Requested agreed(sim::Ranks* ranks, const std::function<Requested()>& of_first) 
   return {candidate_of(parse_technique(json.at("technique")), json.at("parameters")), json.at("threads")};
 }
 
-void write_pairs(const std::string& path, const TimedRun& run, const std::vector<std::uint32_t>& order,
+void write_pairs(const std::string& path, const JobRun& run, const std::vector<std::uint32_t>& order,
                  const std::stop_token& stop) {
   std::vector<sim::Pair> pairs;
   if (!order.empty()) {
@@ -132,7 +132,7 @@ void write_pairs(const std::string& path, const TimedRun& run, const std::vector
   file.commit();
 }
 
-void write_per_disc(const std::string& path, const TimedRun& run, const std::vector<std::uint32_t>& vertices,
+void write_per_disc(const std::string& path, const JobRun& run, const std::vector<std::uint32_t>& vertices,
                     const std::stop_token& stop) {
   const bool errors = run.results ? run.results->errors() : !run.outcome.standard_error.empty();
   sim::WritingCheck check(path, disc_count(run), "discs", stop);

@@ -29,7 +29,7 @@ struct Requested {
 [[nodiscard]] Requested agreed(sim::Ranks* ranks, const std::function<Requested()>& of_first);
 
 /// A run over all rays of a job. The rays are in memory or a stream.
-struct TimedRun {
+struct JobRun {
   sim::Outcome outcome;
   double prepare_seconds = 0;             ///< time for checking rays and discs, and for S₀
   double trace_seconds = 0;               ///< time for making the rays of a stream
@@ -41,12 +41,12 @@ struct TimedRun {
   sim::MissedShare missed = {};  ///< of gather: the light that it misses; finding it is part of prepare_seconds
 };
 
-[[nodiscard]] inline std::uint64_t disc_count(const TimedRun& run) {
+[[nodiscard]] inline std::uint64_t disc_count(const JobRun& run) {
   return run.results ? run.results->discs() : run.outcome.hits.size();
 }
 /// Calls visit(const sim::DiscResult&) for all discs, in their order.
 template <class Visit>
-void for_each_disc(const TimedRun& run, const Visit& visit) {
+void for_each_disc(const JobRun& run, const Visit& visit) {
   if (run.results) return run.results->for_each_disc(visit);
   const sim::Outcome& found = run.outcome;
   const bool errors = !found.standard_error.empty();
@@ -64,9 +64,9 @@ struct Together {
 
 /// Runs the estimator; the rays of a stream by its technique, which finds pairs. Ranks share the rays of a stream, or the discs; on all but rank 0 the
 /// outcome is that of run_on_ranks there. Gather also finds how much light it misses. Other searches do not know of ranks.
-[[nodiscard]] TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request,
-                               const sim::RunOptions& options, const sim::ReportPhase& progress,
-                               const Together& together = {});
+[[nodiscard]] JobRun run_job(const validate::Job& job, const sim::EstimateRequest& request,
+                             const sim::RunOptions& options, const sim::ReportPhase& progress,
+                             const Together& together = {});
 
 /// Times from discs and rays in memory to irradiance in memory, in seconds.
 struct Timing {
@@ -80,18 +80,18 @@ struct Timing {
 /// Times `repeat` runs without counting; if `repeat` is 0, or a stop request ended the first of them, returns the times
 /// of the counting run. The phases returned are those of the run with the median time, or for an even number of runs,
 /// of the slower of the two middle runs.
-[[nodiscard]] Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const TimedRun& counted,
+[[nodiscard]] Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const JobRun& counted,
                                int repeat, const sim::RunOptions& options, const sim::ReportPhase& progress,
                                const Together& together = {});
 
 // The files of what a run found appear complete or not at all. Throw sim::FileError, and sim::Stopped on a stop request.
 
 /// "ray,disc" for each pair. `order`: numbers of the rays in their file; empty if they have the file's order.
-void write_pairs(const std::string& path, const TimedRun& run, const std::vector<std::uint32_t>& order,
+void write_pairs(const std::string& path, const JobRun& run, const std::vector<std::uint32_t>& order,
                  const std::stop_token& stop);
 
 /// Hits and irradiance of each disc; with standard errors and bounds if they were asked for.
-void write_per_disc(const std::string& path, const TimedRun& run, const std::vector<std::uint32_t>& vertices,
+void write_per_disc(const std::string& path, const JobRun& run, const std::vector<std::uint32_t>& vertices,
                     const std::stop_token& stop);
 
 }  // namespace detp::cli

@@ -59,7 +59,7 @@ std::string until_summary(const validate::FindingsUntil& until, const validate::
 
 }  // namespace
 
-std::optional<validate::FindingsTarget> UntilOptions::target() const {
+std::optional<validate::FindingsTarget> ClaimsUntilOptions::target() const {
   if (!relative_error) {
     if (confidence || least_lines || most_lines)
       throw std::invalid_argument("--confidence, --min-lines and --max-lines belong to --until-relative-error");

@@ -32,7 +32,7 @@ struct ValidateOptions {
   double most_samples = 1e7;
   validate::SweepOptions sweep;
   std::optional<std::string> sweep_rows;
-  UntilOptions until;
+  ClaimsUntilOptions until;
   std::vector<std::string> experiments;
   std::vector<std::string> ratios;
   std::optional<std::string> form;

@@ -39,7 +39,7 @@ using Claims = std::vector<validate::Claim>;
 /// of other techniques and of the formulas; the published forms; the negative controls.
 [[nodiscard]] std::string summary_text(const Claims& claims, const Screen& screen);
 
-struct UntilOptions {
+struct ClaimsUntilOptions {
   std::optional<std::string> relative_error;
   std::optional<std::string> confidence;
   std::optional<double> least_lines;
