@@ -53,7 +53,8 @@ struct AnalysisOptions {
 
 /// Measures the ranked candidates, the exact techniques that were not ranked, and neighbours of the two fastest (measure_all). What is predicted to be
 /// slow is started too, and abandoned after `patience` times the shortest time so far; the predicted choice never.
-/// Ranked candidates are judged by times by which the fastest was not selected.
+/// Ranked candidates are judged by times by which the fastest was not selected. `best` is the one with the least time of all, so that a regret
+/// is too high rather than too low, by about regret_error.
 [[nodiscard]] Analysis analyse(const sim::Problem& problem, const std::vector<Prediction>& ranking,
                                const AnalysisOptions& options = {});
 

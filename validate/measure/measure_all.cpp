@@ -7,7 +7,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "detp/sim/base/stopped.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "neighbours.hpp"
@@ -156,8 +155,6 @@ class Search {
       run_within(fastest_ < infinite ? std::max(options_.least_patience, patience * fastest_) : 1e9, one);
     } catch (const std::length_error& error) {
       found_.refused.push_back({contender, error.what()});
-      return;
-    } catch (const sim::Stopped&) {
       return;
     }
     if (!one.abandoned && one.first_seconds < short_run) {

@@ -36,32 +36,33 @@ bool is_checked(const AccuracyAnswer& answer, const AccuracyPoint& point) {
 }
 
 Json point_json(const AccuracyAnswer& answer, const AccuracyPoint& point) {
-  return {{"axis", "estimator"},
-          {"estimator", name(point.estimator)},
-          {"setting", setting_words(answer, point)},
-          {"disc_radius", point.radius > 0 ? Json(point.radius) : Json()},
-          {"nearest", point.nearest > 0 ? Json(point.nearest) : Json()},
-          {"rays", gathers(point) ? 0 : std::round(point.rays)},
-          {"paths", gathers(point) ? Json(std::round(point.rays)) : Json()},
-          {"photons", std::round(point.photons)},
-          {"command", command_of(answer, point)},
-          {"noise", point.noise},
-          {"noise_interval", {point.noise_low, point.noise_high}},
-          {"noise_weak", point.noise_weak},
-          {"bias", point.bias},
-          {"bias_interval", {point.bias_low, point.bias_high}},
-          {"mean_bias", point.mean_bias},
-          {"mean_bias_error", point.mean_bias_error},
-          {"error", point.total},
-          {"error_interval", {point.total_low, point.total_high}},
-          {"variance", point.noise * point.noise},
-          {"slope", point.slope},
-          {"slope_interval", {point.slope_low, point.slope_high}},
-          {"predicted_seconds", point.seconds},
-          {"measured_seconds", is_checked(answer, point) ? Json(answer.check->seconds) : Json()},
-          {"processor_seconds", point.seconds * answer.threads},  // predicted
-          {"on_frontier", point.on_frontier},
-          {"cut_off", !gathers(point) && point.rays >= answer.most_rays}};
+  return {
+      {"axis", "estimator"},
+      {"estimator", name(point.estimator)},
+      {"setting", setting_words(answer, point)},
+      {"disc_radius", point.radius > 0 ? Json(point.radius) : Json()},
+      {"nearest", point.nearest > 0 ? Json(point.nearest) : Json()},
+      {"rays", gathers(point) ? 0 : std::round(point.rays)},
+      {"paths", gathers(point) ? Json(std::round(point.rays)) : Json()},
+      {"photons", std::round(point.photons)},
+      {"command", command_of(answer, point)},
+      {"noise", point.noise},
+      {"noise_interval", {point.noise_low, point.noise_high}},
+      {"noise_weak", point.noise_weak},
+      {"bias", point.bias},
+      {"bias_interval", {point.bias_low, point.bias_high}},
+      {"mean_bias", point.mean_bias},
+      {"mean_bias_error", point.mean_bias_error},
+      {"error", point.total},
+      {"error_interval", {point.total_low, point.total_high}},
+      {"variance", point.noise * point.noise},
+      {"slope", point.slope},
+      {"slope_interval", {point.slope_low, point.slope_high}},
+      {"predicted_seconds", point.seconds},
+      {"measured_seconds", is_checked(answer, point) ? Json(answer.check->seconds) : Json()},
+      {"processor_seconds", point.seconds * answer.threads},  // predicted, at most: all threads at work all the time
+      {"on_frontier", point.on_frontier},
+      {"cut_off", !gathers(point) && point.rays >= answer.most_rays}};
 }
 
 Json reference_json(const AccuracyAnswer& answer) {

@@ -88,7 +88,7 @@ void check_ranking(ChooseAnswer& answer, const CostTable& costs, int threads) {
                     name(answer.choice.candidates.back().candidate.technique)));
   answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs, threads);
   answer.brute_force =
-      model::assess(answer.workload, {Technique::brute_force, BruteForceParameters{}}, costs, threads).time.total();
+      model::assess(answer.workload, {Technique::brute_force, BruteForceParameters{}}, costs, threads).time.again();
 }
 
 /// The progress if a stop request ended the search for tips, else nothing.

@@ -52,7 +52,7 @@ void add_measured(Json& json, const validate::Analysis& analysis, const validate
 /// choice, and how well its seconds were predicted. After a stop, also how many candidates were tried.
 [[nodiscard]] std::string measured_lines(const ChooseAnswer& answer, const Screen& screen);
 
-/// The line "gain": what the obvious ways would take, as predicted. Empty if nothing was measured.
+/// The line "gain": what testing all pairs would take, as predicted. Empty if nothing was measured.
 [[nodiscard]] std::string gain_line(const ChooseAnswer& answer);
 
 /// The lines "missed": the errors of the predictions of the predicted choice and of the fastest candidate.

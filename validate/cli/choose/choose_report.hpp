@@ -64,7 +64,7 @@ struct ChooseAnswer {
   std::vector<sim::EffectReport> effects;
   validate::Choice choice;  ///< predicted
   Prediction paper;         ///< the paper's rule of thumb
-  double brute_force = 0;   ///< predicted seconds of testing all pairs
+  double brute_force = 0;   ///< predicted seconds of testing all pairs, in a repeated search as those measured
   validate::Tips tips;      ///< of the predicted choice
   double tips_seconds = 0;  ///< for finding the tips; not part of choosing
   std::optional<validate::Analysis> analysis;

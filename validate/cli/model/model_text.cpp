@@ -107,8 +107,8 @@ std::string counting_command(const ModelQuestion& question, const ModelAnswer& a
   if (answer.json.value("k_max", std::int64_t{1}) == 0) return "";
   if (const auto* cache = std::get_if<SphereCacheParameters>(&answer.parameters))
     return fmt::format("command   detp validate {} --experiments sphere-cache --ratio {}\n", workload, cache->ratio);
+  if (question.technique == brute_force) return "";
   const bool index = question.technique == octree || question.technique == grid;
-  if (!index && question.technique == brute_force) return "";
   return fmt::format("command   detp validate {} --experiments {}\n", workload, index ? "index" : "hierarchies");
 }
 

@@ -39,8 +39,12 @@ bool is_published(Technique technique) {
 }
 
 std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer) {
-  if (answer.until) return {};
   if (answer.form == Form::published) return published_counts(workload, answer.candidate);
+  return best_prediction(workload, answer);
+}
+
+std::optional<Counts<double>> best_prediction(const Workload& workload, const RunAnswer& answer) {
+  if (answer.until) return {};
   if (is_predicted(answer)) return answer.choice->best().counts;
   if (answer.estimator != sim::Estimator::disc || !model::has_closed_form(answer.candidate.technique)) return {};
   try {
@@ -73,10 +77,10 @@ Whole whole_of_estimator(const validate::Job& job, const RunAnswer& answer) {
 
 }  // namespace
 
-std::optional<Whole> predicted_whole(const validate::Job& job, const RunAnswer& answer,
-                                     const std::optional<Counts<double>>& counts) {
+std::optional<Whole> predicted_whole(const validate::Job& job, const RunAnswer& answer, const Workload& workload) {
   const bool by_photons = answer.estimator != sim::Estimator::disc && !gathers(answer);
   if (by_photons && !answer.until) return whole_of_estimator(job, answer);
+  const auto counts = best_prediction(workload, answer);
   if (!counts) return std::nullopt;
   const int threads = sim::useful_threads(answer.threads);
   const CostBreakdown search = price(*counts, answer.costs, answer.candidate.technique, threads);

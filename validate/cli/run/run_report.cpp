@@ -207,7 +207,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
     json["predicted_seconds"] = (search.total() + errors) / ranks;
     json["predicted_seconds_again"] = (search.again() + errors) / ranks;
   }
-  const auto whole = predicted_whole(job, answer, predicted);
+  const auto whole = predicted_whole(job, answer, job.workload());
   json["whole"] = whole ? whole_json(whole->seconds) : Json();
   json["peak_bytes"] = whole ? Json(*whole->peak_bytes) : Json();
   json.update({{"seconds", seconds_json(answer.timing, answer.repeat)},
@@ -453,7 +453,7 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
   add(fmt::format("seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}{}", timing.total(),
                   timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
                   repeats_text(timing)));
-  add(whole_line(predicted_whole(job, answer, prediction(job.given, answer)), measured_whole(job, answer)));
+  add(whole_line(predicted_whole(job, answer, job.given), measured_whole(job, answer)));
   if (answer.form)
     if (const std::string formulas = formulas_text(job, answer); !formulas.empty()) add(formulas);
   if (const auto& seconds = answer.run.rank_seconds; !seconds.empty())

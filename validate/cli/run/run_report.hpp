@@ -93,10 +93,13 @@ struct RunAnswer {
 /// candidate has none, and of other estimators and runs until an error.
 [[nodiscard]] std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer);
 
-/// Of the whole command: of pairs from such counts, of estimators that look at photons by AccuracyCosts and the hits expected of closed forms.
+/// The same, whatever form is requested.
+[[nodiscard]] std::optional<Counts<double>> best_prediction(const Workload& workload, const RunAnswer& answer);
+
+/// Of the whole command: of pairs from best_prediction, of estimators that look at photons by AccuracyCosts and the hits expected of closed forms.
 /// Nothing for backward paths, whose rays are known only by a pilot (`accuracy`), and for runs until an error.
 [[nodiscard]] std::optional<Whole> predicted_whole(const validate::Job& job, const RunAnswer& answer,
-                                                   const std::optional<Counts<double>>& counts);
+                                                   const Workload& workload);
 
 /// Until now.
 [[nodiscard]] Whole measured_whole(const validate::Job& job, const RunAnswer& answer);

@@ -81,6 +81,8 @@ TEST_SUITE("end to end") {
     const Json corrected = ask("sphere-cache --ratio 0.65 --form corrected");
     CHECK(published.at("counts") == corrected.at("counts"));
     CHECK(published.at("inputs").at("form") == "published");
+    CHECK(published.at("whole").at("search") ==
+          corrected.at("whole").at("search"));  // the wait is that of the better form
     CHECK(corrected.at("predicted") == ask("sphere-cache --ratio 0.65").at("predicted"));
     const Json model = result_of("model" + numbers + "sphere-cache --ratio 0.65 --form published --spheres " +
                                  published.at("k").dump());
