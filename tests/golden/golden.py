@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Answers of every command before and after a change: golden.py BINARY FOLDER writes them, golden.py --compare BEFORE AFTER compares.
 
-What depends on the clock or the machine is masked. All else must be equal: keys, their order, numbers to the last digit, columns, text of
-CSV. Questions use --calibration none, so that choices do not depend on the machine's costs.
+What depends on the clock or the machine is masked. All else must be equal: keys (JSON objects have no order), numbers to the last digit, columns
+and their order, text of CSV. Questions use --calibration none, so that choices do not depend on the machine's costs.
 """
 
 import argparse
@@ -81,7 +81,7 @@ def ask(binary: Path, folder: Path, number: int, command: str, options: str) -> 
             ran = subprocess.run([str(binary), *line.split(), "--format", form], cwd=place, capture_output=True, text=True)
             text = ran.stdout
             if form == "json" and text:
-                text = json.dumps(masked(json.loads(text)), indent=1, ensure_ascii=False) + "\n"
+                text = json.dumps(masked(json.loads(text)), indent=1, ensure_ascii=False, sort_keys=True) + "\n"
             elif text:
                 text = masked_csv(text)
             (folder / f"{number:02}-{command}.{form}").write_text(f"{line}\nexit {ran.returncode}\n{ran.stderr}{text}", encoding="utf-8")

@@ -13,7 +13,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/estimate/variable_radius.hpp"
 #include "detp/sim/ranks/farm.hpp"
-#include "detp/validate/base/json_bytes.hpp"
+#include "detp/validate/base/json.hpp"
 #include "judged_samples.hpp"
 #include "radii.hpp"
 

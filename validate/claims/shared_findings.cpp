@@ -4,7 +4,7 @@
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/validate/base/json_bytes.hpp"
+#include "detp/validate/base/json.hpp"
 
 namespace detp::validate {
 

@@ -6,7 +6,7 @@
 
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/validate/base/json_bytes.hpp"
+#include "detp/validate/base/json.hpp"
 #include "detp/validate/checkpoint/value_json.hpp"
 #include "detp/validate/choice/candidate_json.hpp"
 

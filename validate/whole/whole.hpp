@@ -19,6 +19,12 @@ struct WholeSeconds {
   [[nodiscard]] double total() const { return read + trace + prepare + search + rest; }
 };
 
+/// Both, predicted or measured.
+struct Whole {
+  WholeSeconds seconds;
+  std::optional<double> peak_bytes;
+};
+
 /// What both depend on.
 struct WholeInputs {
   double text_bytes = 0;    ///< of files

@@ -10,11 +10,6 @@
 namespace detp::cli {
 namespace {
 
-std::string column_of(std::string name) {
-  std::replace(name.begin(), name.end(), ' ', '_');
-  return name;
-}
-
 /// The effects that are on, but for one that is switched, as --effects takes them.
 sim::EffectSelection switched(const std::vector<sim::EffectReport>& effects, const sim::Effect& one) {
   std::string names;
@@ -38,45 +33,6 @@ double tests(const Workload& workload) {
 }
 
 }  // namespace
-
-Json to_json(const std::vector<sim::EffectReport>& effects) {
-  Json json = Json::array();
-  for (const sim::EffectReport& report : effects)
-    json.push_back({{"name", report.effect->name},
-                    {"on", report.on},
-                    {"value", report.value},
-                    {"standard_error", report.standard_error},
-                    {"threshold", report.effect->threshold.at},
-                    {"on_if", sim::condition(report.effect->threshold)},
-                    {"over_threshold", report.effect->threshold.over(report.value)},
-                    {"close", report.is_close()},
-                    {"seconds", report.seconds},
-                    {"evidence", report.effect->evidence},
-                    {"reason", report.reason}});
-  return json;
-}
-
-const Columns& effect_columns() {
-  static const Columns columns = [] {
-    Columns all;
-    for (const sim::Effect* effect : sim::all_effects) {
-      all.push_back(column_of(std::string(effect->name)));
-      all.push_back(all.back() + "_value");
-    }
-    return all;
-  }();
-  return columns;
-}
-
-Json effect_cells(const Json& effects) {
-  Json cells = Json::object();
-  for (const Json& effect : effects) {
-    const std::string column = column_of(effect["name"]);
-    cells[column] = effect["on"];
-    cells[column + "_value"] = effect["value"];
-  }
-  return cells;
-}
 
 std::string effects_on(const std::vector<sim::EffectReport>& effects) {
   std::string on;

@@ -4,22 +4,18 @@
 #include <vector>
 
 #include "detp/sim/effects/observe.hpp"
+#include "detp/validate/answer/parts.hpp"
 #include "detp/validate/cli/text/result.hpp"
 #include "detp/validate/cli/text/screen.hpp"
 #include "detp/validate/cli/text/table.hpp"
 #include "detp/validate/job/job.hpp"
 
-/// The effects in JSON, CSV and text.
+/// The effects in text.
 namespace detp::cli {
 
-/// An array with one object for each effect.
-[[nodiscard]] Json to_json(const std::vector<sim::EffectReport>& effects);
-
-/// The columns of effect_cells(): for each effect its name (true or false), and the name with "_value".
-[[nodiscard]] const Columns& effect_columns();
-
-/// The effects of to_json as cells of a table.
-[[nodiscard]] Json effect_cells(const Json& effects);
+using validate::effect_cells;
+using validate::effect_columns;
+using validate::to_json;
 
 /// "finite paths, surface samples"; empty if none is on.
 [[nodiscard]] std::string effects_on(const std::vector<sim::EffectReport>& effects);

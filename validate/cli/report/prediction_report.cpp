@@ -18,10 +18,6 @@ double rounded(double seconds) { return seconds < 0.01 ? std::round(1e3 * second
 
 }  // namespace
 
-Json extrapolated_json(const std::vector<std::string>& reasons) {
-  return {{"extrapolated", !reasons.empty()}, {"extrapolated_because", reasons}};
-}
-
 std::string_view extrapolation_mark(Technique technique, const std::vector<std::string>& reasons, bool real) {
   if (reasons.empty()) return "";
   return real && technique != Technique::box_tree && technique != Technique::brute_force ? "!" : "~";
@@ -55,14 +51,6 @@ std::string extrapolated_note(std::span<const std::pair<Technique, std::vector<s
     if (!names.empty()) note += fmt::format(" ({})", fmt::join(names, ", "));
   }
   return note;
-}
-
-Json whole_json(const validate::WholeSeconds& seconds) {
-  return {{"read", seconds.read},
-          {"trace", seconds.trace},
-          {"prepare", seconds.prepare},
-          {"search", seconds.search},
-          {"total", seconds.total()}};
 }
 
 std::string whole_line(const std::optional<Whole>& predicted, const std::optional<Whole>& measured) {

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "detp/sim/base/progress.hpp"
+#include "detp/validate/base/json.hpp"
 
 /// The form of a command's result.
 namespace detp::cli {
 
-using Json = nlohmann::ordered_json;
+using validate::Json;
 
 enum class ExitCode { done = 0, refuted = 1, bad_input = 2, stopped = 3, internal = 4 };
 

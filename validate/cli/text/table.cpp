@@ -124,11 +124,6 @@ std::string TextTable::text(const Screen& screen) const {
   return text;
 }
 
-Columns operator+(Columns left, const Columns& right) {
-  left.insert(left.end(), right.begin(), right.end());
-  return left;
-}
-
 void Table::add(const Json& row) {
   std::vector<Json> fields(columns_.size());
   for (const auto& [name, value] : row.items()) {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "detp/validate/base/json.hpp"
 #include "result.hpp"
 #include "screen.hpp"
 
@@ -45,9 +45,9 @@ class TextTable {
   std::vector<std::vector<TextCell>> rows_;
 };
 
-using Columns = std::vector<std::string>;
-
-[[nodiscard]] Columns operator+(Columns left, const Columns& right);
+using validate::Columns;
+using validate::known;
+using validate::operator+;
 
 /// Rows of numbers, strings and booleans under declared columns. Missing values, null, and numbers that are not finite
 /// become empty fields.
@@ -72,9 +72,6 @@ class Table {
 /// line names the columns that were left out.
 [[nodiscard]] std::string aligned_text(const std::vector<Json>& rows, const Columns& inputs, const Columns& answers,
                                        const Screen& screen);
-
-/// The number, or null if it is not finite. A relative error, for instance, is not finite if all observations are zero.
-[[nodiscard]] inline Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
 /// A list of texts as one cell, separated by "; ".
 [[nodiscard]] std::string joined(const std::vector<std::string>& texts);

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+/// JSON and names of columns: what answers are written with.
+namespace detp::validate {
+
+using Json = nlohmann::ordered_json;
+
+/// The names of a table's columns, in order.
+using Columns = std::vector<std::string>;
+[[nodiscard]] inline Columns operator+(Columns left, const Columns& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
+/// The number, or null if it is not finite. A relative error, for instance, is not finite if all observations are zero.
+[[nodiscard]] inline Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
+
+/// A value as JSON: null for an optional that is empty, and for a number that is not finite.
+template <class T>
+[[nodiscard]] Json json_value(const T& value) {
+  if constexpr (std::is_floating_point_v<T>)
+    return known(value);
+  else
+    return Json(value);
+}
+template <class T>
+[[nodiscard]] Json json_value(const std::optional<T>& value) {
+  return value ? json_value(*value) : Json();
+}
+
+/// JSON in binary (CBOR), to be sent to another process: exact and short, and other than text it has infinite numbers.
+[[nodiscard]] inline std::string json_bytes(const nlohmann::json& json) {
+  std::string bytes;
+  nlohmann::json::to_cbor(json, bytes);
+  return bytes;
+}
+
+/// Throws nlohmann::json::exception unless the bytes are those of json_bytes.
+template <class T>
+[[nodiscard]] T from_json_bytes(const std::string& bytes) {
+  return nlohmann::json::from_cbor(bytes).get<T>();
+}
+
+}  // namespace detp::validate
