@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "best_published_ratio.hpp"
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/sphere_cache/sphere_cache.hpp"
 #include "detp/model/sphere_cache/sphere_count.hpp"
@@ -203,6 +204,17 @@ BestRatio best_ratio_for(const Valid<Workload>& workload, const Valid<UnitCosts>
   const double least = std::clamp(pieces.above(spheres), least_ratio, most_ratio);
   const auto evaluate = [&](double ratio, double) { return BestRatio{ratio, spheres, times.at(ratio, spheres)}; };
   return Search(times, pieces, least, evaluate).best();
+}
+
+std::int64_t own_spheres(const Workload& workload, Form form, RadiusRatio ratio) {
+  return sphere_count(form, ratio, {workload.disc_radius}, {workload.sphere_radius});
+}
+
+SphereStops sphere_stops(const Workload& workload, const UnitCosts& costs, Form form, RadiusRatio ratio) {
+  const std::int64_t max = own_spheres(workload, form, ratio);
+  if (max == 0) return {};
+  return {max, form == Form::published ? published::best_stop(workload, costs, ratio)
+                                       : best_stop(workload, costs, ratio).spheres};
 }
 
 }  // namespace detp::model

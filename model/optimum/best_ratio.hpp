@@ -56,6 +56,18 @@ struct BestRatio {
 [[nodiscard]] BestRatio best_ratio_for(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                        std::int64_t spheres);
 
+/// Two numbers of spheres k for a sphere cache of ratio Q.
+struct SphereStops {
+  std::int64_t max = 0;   ///< number of spheres that can hold a disc, by the published or the corrected form
+  std::int64_t best = 0;  ///< number of spheres with the least predicted time, by the same form; 0 if max is 0
+};
+
+/// Throws as sphere_count and best_stop do.
+[[nodiscard]] SphereStops sphere_stops(const Workload& workload, const UnitCosts& costs, Form form, RadiusRatio ratio);
+
+/// SphereStops::max alone, without the search for the best.
+[[nodiscard]] std::int64_t own_spheres(const Workload& workload, Form form, RadiusRatio ratio);
+
 /// The middle of the paper's recommendation, 0.6 to 0.7.
 inline constexpr double published_ratio = 0.65;
 

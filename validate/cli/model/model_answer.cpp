@@ -35,7 +35,7 @@ SampleOrder order_of(const ModelQuestion& question) {
   return given ? *choice_named<SampleOrder>(*given) : SampleOrder::lebesgue;
 }
 
-SphereCacheParameters cache_parameters(const ModelQuestion& question, double ratio, const SphereStops& stops) {
+SphereCacheParameters cache_parameters(const ModelQuestion& question, double ratio, const model::SphereStops& stops) {
   const std::int64_t otherwise = question.options.stop == SphereStop::best ? stops.best : stops.max;
   return {ratio, question.options.given<std::int64_t>("spheres").value_or(otherwise), order_of(question)};
 }
@@ -153,15 +153,15 @@ Json corrected_index(const ModelQuestion& question, double parts, const Counts<d
 ModelAnswer sphere_cache_answer(const ModelQuestion& question) {
   model::require_rebuild_law(order_of(question));
   const double ratio = question.options.given<double>("ratio").value_or(model::published_ratio);
-  const SphereStops stops = sphere_stops(question.workload, question.costs, question.form, {ratio});
+  const model::SphereStops stops = model::sphere_stops(question.workload, question.costs, question.form, {ratio});
   const SphereCacheParameters parameters = cache_parameters(question, ratio, stops);
   Json json{{"parameters", to_json(Candidate{question.technique, parameters})},
             {"form", name(question.form)},
             {"k", parameters.spheres},
             {"k_max", stops.max},
             {"k_best", stops.best},
-            {"k_published", own_spheres(question.workload, Form::published, {ratio})},
-            {"k_corrected", own_spheres(question.workload, Form::corrected, {ratio})}};
+            {"k_published", model::own_spheres(question.workload, Form::published, {ratio})},
+            {"k_corrected", model::own_spheres(question.workload, Form::corrected, {ratio})}};
   json.update(question.form == Form::published ? published_cache(question, parameters)
                                                : corrected_cache(question, parameters));
   return {parameters, std::move(json)};

@@ -7,9 +7,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "detp/model/optimum/best_published_ratio.hpp"
-#include "detp/model/optimum/best_ratio.hpp"
-#include "detp/model/sphere_cache/sphere_count.hpp"
 #include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/lists/simd/instruction_sets.hpp"
@@ -141,17 +138,6 @@ std::string InstructionSetOption::only() const {
   const std::vector<std::string> all = sets();
   if (all.size() > 1) throw std::invalid_argument("--instruction-set takes only one here");
   return all.front();
-}
-
-std::int64_t own_spheres(const Workload& workload, Form form, RadiusRatio ratio) {
-  return model::sphere_count(form, ratio, {workload.disc_radius}, {workload.sphere_radius});
-}
-
-SphereStops sphere_stops(const Workload& workload, const UnitCosts& costs, Form form, RadiusRatio ratio) {
-  const std::int64_t max = own_spheres(workload, form, ratio);
-  if (max == 0) return {};
-  return {max, form == Form::published ? model::published::best_stop(workload, costs, ratio)
-                                       : model::best_stop(workload, costs, ratio).spheres};
 }
 
 }  // namespace detp::cli

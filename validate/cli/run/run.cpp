@@ -101,7 +101,7 @@ Requested complete(const CandidateOptions& options, const validate::Job& job, co
   if (!candidate) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));
   if (auto* cache = std::get_if<SphereCacheParameters>(&candidate->parameters);
       cache != nullptr && options.stop == SphereStop::max)
-    cache->spheres = sphere_stops(workload, costs[technique], Form::corrected, {cache->ratio}).max;
+    cache->spheres = model::sphere_stops(workload, costs[technique], Form::corrected, {cache->ratio}).max;
   return {*candidate,
           options.technique ? sim::thread_count(threads) : chosen_threads(*candidate, workload, costs, most)};
 }

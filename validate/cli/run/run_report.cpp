@@ -57,12 +57,12 @@ void add_stops(const Workload& workload, const Candidate& candidate, const CostT
   const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters);
   if (cache == nullptr) return;
   const auto form = candidate.technique == Technique::sphere_cache ? Form::corrected : Form::published;
-  const SphereStops stops = sphere_stops(workload, costs[candidate.technique], form, {cache->ratio});
+  const model::SphereStops stops = model::sphere_stops(workload, costs[candidate.technique], form, {cache->ratio});
   json["k"] = cache->spheres;
   json["k_max"] = stops.max;
   json["k_best"] = stops.best;
-  json["k_published"] = own_spheres(workload, Form::published, {cache->ratio});
-  json["k_corrected"] = own_spheres(workload, Form::corrected, {cache->ratio});
+  json["k_published"] = model::own_spheres(workload, Form::published, {cache->ratio});
+  json["k_corrected"] = model::own_spheres(workload, Form::corrected, {cache->ratio});
 }
 
 /// T_R and T_I at unit costs of 1, under the names that `model` gives them.
@@ -289,7 +289,7 @@ std::string formulas_text(const validate::Job& job, const RunAnswer& answer) {
   if (found.intersect > 0) text += fmt::format("T_I {}", over(expected.intersect, found.intersect));
   const auto* cache = std::get_if<SphereCacheParameters>(&answer.candidate.parameters);
   if (cache == nullptr) return text;
-  const std::int64_t own = own_spheres(job.workload(), *answer.form, {cache->ratio});
+  const std::int64_t own = model::own_spheres(job.workload(), *answer.form, {cache->ratio});
   text += fmt::format("; k = {}", cache->spheres);
   if (cache->spheres != own)
     text += fmt::format("; by this form {} spheres can hold a disc, which detp model takes: --spheres {}", own, own);
