@@ -37,6 +37,23 @@ class Calls(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "radius"):
             smaller.with_radius(-1)
 
+    def test_a_run_finds_what_the_command_finds(self) -> None:
+        options = {"rays": 20000, "technique": "grid", "threads": 1, "seed": 3}
+        found = detp.run("@cornell", standard_error=True, **options)
+        answer = detp.ask("run", "@cornell", *(f"--{name}={value}" for name, value in options.items()))
+        self.assertEqual(int(found.hits.sum()), answer["hits"])
+        self.assertEqual(found.answer["mean_irradiance"], answer["mean_irradiance"])
+        self.assertAlmostEqual(float(np.mean(found.irradiance)) / answer["mean_irradiance"], 1, 12)
+        self.assertEqual(found.centres.shape, (len(found.hits), 3))
+        self.assertTrue(np.allclose(np.linalg.norm(found.normals, axis=1), 1))
+        self.assertTrue((found.radii == found.answer["inputs"]["disc_radius"]).all())
+        assert found.standard_error is not None and found.upper_bound is not None
+        self.assertTrue((found.upper_bound >= found.irradiance).all())
+        self.assertIsNone(detp.run("@cornell", rays=1000).standard_error)
+        for wrong in ({"rays": "1k,2k"}, {"leaf": 8, "estimator": "gather"}, {"unknown": 1}):
+            with self.assertRaises(ValueError):
+                detp.run("@cornell", **wrong)
+
     def test_threads_search_one_plan_at_once(self) -> None:
         rays = detp.Rays(*some_rays(20000))
         plan = detp.plan(detp.Discs(*some_discs(2000), 0.05), rays)

@@ -14,6 +14,22 @@ namespace detp::validate {
 /// The value of a field that an answer does not have: neither JSON nor a table's row has it.
 [[nodiscard]] inline Json left_out() { return Json::value_t::discarded; }
 
+/// A value of a part that an answer may lack: the field is left out where `part` of the answer is null.
+template <class PartOf, class Value>
+[[nodiscard]] auto of_part(PartOf part, Value value) {
+  return [part, value](const auto& answer) {
+    const auto* const one = std::invoke(part, answer);
+    return one != nullptr ? json_value(std::invoke(value, *one)) : left_out();
+  };
+}
+/// A value that only some answers have.
+template <class Has, class Value>
+[[nodiscard]] auto only_if(Has has, Value value) {
+  return [has, value](const auto& answer) {
+    return std::invoke(has, answer) ? json_value(std::invoke(value, answer)) : left_out();
+  };
+}
+
 /// A column of tables that a field fills: its name, and the place of its value in the field's JSON ("/total", "/0"; empty: the whole).
 struct Column {
   std::string name;
@@ -49,14 +65,11 @@ struct Field {
   [[nodiscard]] Field as_interval(const std::string& of) const {
     return in({{of + "_low", "/0"}, {of + "_high", "/1"}});
   }
-  /// Counts: a column for each term, and one for the sum of the tests, each after the prefix ("predicted_").
-  [[nodiscard]] Field as_counts(const std::string& prefix) const {
-    std::vector<Column> terms;
-    for_each_term(Counts<double>{}, [&](std::string_view term, double) {
-      terms.push_back({prefix + std::string(term), "/" + std::string(term)});
-    });
-    Field field = in(std::move(terms));
-    field.tests = prefix + "tests";
+  /// Under these columns, which `cells_of` fills from the value.
+  [[nodiscard]] Field by(const Columns& names, std::function<Json(const Answer&, const Json& value)> cells_of) const {
+    Field field = in({});
+    for (const std::string& one : names) field.columns.push_back({one});
+    field.cells = std::move(cells_of);
     return field;
   }
 
@@ -65,7 +78,8 @@ struct Field {
   std::string meaning;
   std::function<Json(const Answer&)> value;
   std::vector<Column> columns;
-  std::string tests = {};  ///< of counts: the column of their sum
+  std::function<Json(const Answer&, const Json& value)> cells =
+      {};  ///< of the columns, by name; if it is set, columns have no places
   bool in_json = true;
 };
 
@@ -80,7 +94,10 @@ template <class Answer, class Part, class PartOf>
     Field<Answer> field(one.name, one.unit, one.meaning,
                         [value = one.value, part](const Answer& answer) { return value(std::invoke(part, answer)); });
     field.columns = one.columns;
-    field.tests = one.tests;
+    if (one.cells)
+      field.cells = [cells = one.cells, part](const Answer& answer, const Json& value) {
+        return cells(std::invoke(part, answer), value);
+      };
     field.in_json = one.in_json;
     all.push_back(std::move(field));
   }
@@ -99,10 +116,8 @@ template <class Answer>
 template <class Answer>
 [[nodiscard]] Columns columns_of(const Fields<Answer>& fields) {
   Columns columns;
-  for (const Field<Answer>& field : fields) {
+  for (const Field<Answer>& field : fields)
     for (const Column& column : field.columns) columns.push_back(column.name);
-    if (!field.tests.empty()) columns.push_back(field.tests);
-  }
   return columns;
 }
 
@@ -114,11 +129,12 @@ template <class Answer>
     if (field.columns.empty()) continue;
     const Json value = field.value(answer);
     if (value.is_discarded()) continue;
+    if (field.cells) {
+      cells.update(field.cells(answer, value));
+      continue;
+    }
     for (const Column& column : field.columns)
       if (const Json::json_pointer place(column.place); value.contains(place)) cells[column.name] = value.at(place);
-    if (!field.tests.empty() && value.is_object())
-      cells[field.tests] =
-          value.at("cull_tests").template get<double>() + value.at("disc_tests").template get<double>();
   }
   return cells;
 }

@@ -90,4 +90,41 @@ template <class T>
   return cells;
 }
 
+/// Counts in JSON: a column for each term and `tests`, each after the prefix.
+template <class Answer, class Value>
+[[nodiscard]] Field<Answer> counts_field(const std::string& name, const std::string& prefix, const std::string& meaning,
+                                         Value value) {
+  return Field<Answer>(name, "", meaning, value).by(count_columns(prefix), [prefix](const Answer&, const Json& counts) {
+    Json cells = Json::object();
+    const Json plain = count_cells(counts);
+    for (const auto& [term, count] : plain.items()) cells[prefix + term] = count;
+    return cells;
+  });
+}
+
+/// The parameters of a candidate, which is null if there is none: in JSON by name; in tables as text, and a column for each parameter of any technique.
+template <class Answer, class CandidateOf>
+[[nodiscard]] Field<Answer> parameters_field(const std::string& meaning, CandidateOf candidate) {
+  const Columns names(candidate_columns().begin() + 1, candidate_columns().end());
+  return Field<Answer>("parameters", "", meaning,
+                       [candidate](const Answer& answer) {
+                         const Candidate* const one = std::invoke(candidate, answer);
+                         return one != nullptr ? to_json(*one) : Json::object();
+                       })
+      .by(names, [candidate](const Answer& answer, const Json& parameters) {
+        const Candidate* const one = std::invoke(candidate, answer);
+        if (one == nullptr) return Json::object();
+        Json cells = parameters;
+        cells["parameters"] = describe(*one);
+        return cells;
+      });
+}
+
+/// The effects in JSON; their columns.
+template <class Answer, class Value>
+[[nodiscard]] Field<Answer> effects_field(Value value) {
+  return Field<Answer>("effects", "", "deviations from uniform lines and samples, with the evidence for each", value)
+      .by(effect_columns(), [](const Answer&, const Json& effects) { return effect_cells(effects); });
+}
+
 }  // namespace detp::validate

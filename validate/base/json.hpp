@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,6 +17,13 @@ using Json = nlohmann::ordered_json;
 using Columns = std::vector<std::string>;
 [[nodiscard]] inline Columns operator+(Columns left, const Columns& right) {
   left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
+/// Both, each name once.
+[[nodiscard]] inline Columns united(Columns left, const Columns& right) {
+  for (const std::string& one : right)
+    if (std::find(left.begin(), left.end(), one) == left.end()) left.push_back(one);
   return left;
 }
 

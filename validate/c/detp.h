@@ -319,6 +319,33 @@ DETP_API detp_status detp_predict(const detp_workload *workload, const char *tec
                                   int published, const detp_costs *costs, int threads, char *text, size_t room,
                                   detp_prediction *prediction, detp_error *error);
 
+/* ---- a run in a scene ---- */
+
+/* What the command `detp run` has found. */
+typedef struct detp_run detp_run;
+
+typedef struct detp_run_view {
+  size_t size;
+  /* set by the call; the arrays belong to the run, and have an element for each disc: */
+  size_t discs;
+  const double *centres; /* x, y, z of each */
+  const double *normals; /* x, y, z of each */
+  const double *radii;
+  const uint64_t *hits;
+  const double *irradiance;
+  const double *standard_error; /* null unless it was asked for, or the run ended at an error */
+  const double *upper_bound;    /* one-sided, 95 %; null likewise */
+  const char *json;             /* what the command prints */
+} detp_run_view;
+
+/* Does what `detp run WORDS...` does: makes discs and rays of a scene or of files, chooses technique and parameters, searches, and
+ * stops at an error if the words ask for one. Takes --standard-error also without --per-disc. One value for each option. A run that
+ * progress stopped is partial: its JSON says so. progress: as of detp_ask. */
+DETP_API detp_status detp_run_create(const char *const *words, size_t count, detp_progress progress, void *user,
+                                     detp_run **run, detp_error *error);
+DETP_API detp_status detp_run_look(const detp_run *run, detp_run_view *view, detp_error *error);
+DETP_API void detp_run_free(detp_run **run);
+
 /* ---- every other question ---- */
 
 /* What the command `detp WORDS... --format json` prints: closed forms and the best Q (`model`), what accuracy costs (`accuracy`), runs that stop

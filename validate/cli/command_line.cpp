@@ -176,8 +176,9 @@ void CommandLine::require_command(const std::string& name) const {
                                             fmt::join(known, ", "), did_you_mean(name, known)));
 }
 
-Json ask(const std::vector<std::string>& words, const std::stop_token& stop) {
-  if (words.empty()) throw std::invalid_argument("a command is needed, as model");
+namespace {
+
+AskedRun answer_of(const std::vector<std::string>& words, bool in_memory, const std::stop_token& stop) {
   std::vector<std::string> all{"detp"};
   all.insert(all.end(), words.begin(), words.end());
   all.emplace_back("--quiet");
@@ -187,6 +188,7 @@ Json ask(const std::vector<std::string>& words, const std::stop_token& stop) {
   try {
     const Command& command = line.parse(static_cast<int>(arguments.size()), arguments.data());
     CommonOptions common = line.common();
+    common.in_memory = in_memory;
     if (common.memory_limit) throw std::invalid_argument("--memory-limit is for the command alone");
     if (common.time_limit != 0)
       throw std::invalid_argument("--time-limit is for the command alone; stop the call instead");
@@ -197,12 +199,25 @@ Json ask(const std::vector<std::string>& words, const std::stop_token& stop) {
     common.format = "json";  // some commands make nothing else then
     Result result = command.run(common, stop);
     result.json["stopped"] = result.stopped.has_value();
-    return envelope(command.app->get_name(), common, sim::thread_count(common.threads), result);
+    return {envelope(command.app->get_name(), common, sim::thread_count(common.threads), result),
+            std::move(result.run)};
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0)
       throw std::invalid_argument("--help and --version are for the command alone; ask a question, as model");
     throw std::invalid_argument(line.message(error));
   }
+}
+
+}  // namespace
+
+Json ask(const std::vector<std::string>& words, const std::stop_token& stop) {
+  if (words.empty()) throw std::invalid_argument("a command is needed, as model");
+  return answer_of(words, false, stop).json;
+}
+
+AskedRun ask_run(std::vector<std::string> words, const std::stop_token& stop) {
+  words.insert(words.begin(), "run");
+  return answer_of(words, true, stop);
 }
 
 }  // namespace detp::cli

@@ -50,4 +50,12 @@ class CommandLine {
 /// request came before there was anything.
 [[nodiscard]] Json ask(const std::vector<std::string>& words, const std::stop_token& stop);
 
+struct AskedRun {
+  Json json;
+  std::shared_ptr<const validate::JobAndRun> run;
+};
+
+/// What `detp run WORDS…` does, with what it found. Throws as `ask`, and std::invalid_argument for several rows.
+[[nodiscard]] AskedRun ask_run(std::vector<std::string> words, const std::stop_token& stop);
+
 }  // namespace detp::cli

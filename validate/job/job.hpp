@@ -199,6 +199,13 @@ struct Job {
   mutable Workload workload_;
 };
 
+/// Rays of a job's kind that a run has taken.
+struct RaysTaken {
+  double rays = 0;
+  double photons = 0;
+  std::optional<sim::LightLedger> light = {};  ///< of photons that were traced for it
+};
+
 /// Makes what is requested; nothing is measured yet. Throws sim::FileError for a bad file, std::invalid_argument for a bad request,
 /// std::length_error if the rays or samples would not fit in memory, and sim::Stopped within 0.1 s of a stop request.
 [[nodiscard]] Job make_job(const JobRequest& request, std::stop_token stop = {}, const sim::ReportPhase& progress = {});

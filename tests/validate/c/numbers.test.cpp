@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -117,6 +118,28 @@ TEST_SUITE("c interface") {
     refused("octree", nullptr, 1, "published");
     refused("sphere-cache", nullptr, 1, "ratio");
     refused("bvh", nullptr, 0, "closed form");
+  }
+
+  TEST_CASE("a run finds in memory what the command prints") {
+    const char* const words[] = {"@cornell", "--rays", "5000", "--technique", "grid", "--standard-error"};
+    detp_run* run = nullptr;
+    detp_error error{};
+    REQUIRE_MESSAGE(detp_run_create(words, std::size(words), nullptr, nullptr, &run, &error) == DETP_OK, error.text);
+    detp_run_view view = DETP_INIT(detp_run_view);
+    REQUIRE(detp_run_look(run, &view, &error) == DETP_OK);
+    const nlohmann::json answer = nlohmann::json::parse(view.json);
+    REQUIRE(view.discs == answer["inputs"]["samples"]);
+    CHECK(std::accumulate(view.hits, view.hits + view.discs, std::uint64_t{0}) == answer["hits"]);
+    const double sum = std::accumulate(view.irradiance, view.irradiance + view.discs, 0.0);
+    CHECK(sum / static_cast<double>(view.discs) == answer["mean_irradiance"]);
+    CHECK(view.radii[0] == answer["inputs"]["disc_radius"]);
+    CHECK(view.upper_bound[0] >= view.irradiance[0]);
+    CHECK(std::abs(std::hypot(view.normals[0], view.normals[1], view.normals[2]) - 1) < 1e-12);
+    detp_run_free(&run);
+    CHECK(run == nullptr);
+    const char* const rows[] = {"@cornell", "--rays", "1000,2000"};
+    CHECK(detp_run_create(rows, std::size(rows), nullptr, nullptr, &run, &error) == DETP_INVALID);
+    CHECK(detp_run_look(nullptr, &view, &error) == DETP_INVALID);
   }
 
   TEST_CASE("every question of the command can be asked, and is answered as JSON") {

@@ -52,6 +52,8 @@ class CandidateOptions {
     return technique ? parse_technique(*technique) : otherwise;
   }
 
+  /// All parameters that are set.
+  [[nodiscard]] model::FixedParameters given() const { return {{given_.begin(), given_.end()}}; }
   /// The parameters that are set. Throws std::invalid_argument for a parameter that the technique does not have.
   [[nodiscard]] model::FixedParameters fixed_parameters(Technique technique) const;
 

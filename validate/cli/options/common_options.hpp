@@ -22,6 +22,7 @@ struct CommonOptions {
   int threads = 0;        ///< 0: all cores
   double time_limit = 0;  ///< seconds; 0: none
   std::optional<std::string> memory_limit;
+  bool in_memory = false;       ///< the caller takes the result of a run from memory, too
   sim::Ranks* ranks = nullptr;  ///< the processes that run this command together; null: this one alone
 
   [[nodiscard]] Screen screen() const;

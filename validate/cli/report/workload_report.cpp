@@ -44,11 +44,11 @@ std::string scene_line(const validate::Job& job, const std::string& measured) {
                             w.disc_radius, 100 * w.disc_radius / scene_side(w), measured);
 }
 
-RaysTaken rays_taken(const validate::Job& job) {
+validate::RaysTaken rays_taken(const validate::Job& job) {
   return {job.given.rays, static_cast<double>(job.independent_photons()), job.light};
 }
 
-std::string rays_line(const validate::Job& job, const RaysTaken& taken, const std::string& lengths) {
+std::string rays_line(const validate::Job& job, const validate::RaysTaken& taken, const std::string& lengths) {
   // where each ray is a photon, their number is that of the rays
   const std::string photons = job.numbered() ? fmt::format(", {} photons", spaced(taken.photons)) : "";
   return fmt::format("rays      {} {}{}{}{}{}\n", spaced(taken.rays), rays_of(job), photons, lengths, lights_of(job),
@@ -77,7 +77,7 @@ std::string describe(const validate::Job& job) {
          rays_line(job, rays_taken(job), lengths_of(job));
 }
 
-std::string describe_given(const validate::Job& job, const std::optional<RaysTaken>& taken) {
+std::string describe_given(const validate::Job& job, const std::optional<validate::RaysTaken>& taken) {
   if (job.without_rays) return scene_line(job, lights_of(job));
   return scene_line(job, "") + rays_line(job, taken.value_or(rays_taken(job)), "");
 }

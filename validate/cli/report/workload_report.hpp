@@ -29,15 +29,9 @@ void note_all(const CommonOptions& common, const validate::Job& job);
 /// The lines "scene" and "rays" of the text output; these with the light that left or was cut, if that is much.
 [[nodiscard]] std::string describe(const validate::Job& job);
 
-/// Rays of a job's kind that a run has taken.
-struct RaysTaken {
-  double rays = 0;
-  double photons = 0;
-  std::optional<sim::LightLedger> light = {};  ///< of photons that were traced for it
-};
-
 /// The same without what has to be measured; `taken`: other rays than the job's own. Without rays: the scene and its lights.
-[[nodiscard]] std::string describe_given(const validate::Job& job, const std::optional<RaysTaken>& taken = {});
+[[nodiscard]] std::string describe_given(const validate::Job& job,
+                                         const std::optional<validate::RaysTaken>& taken = {});
 
 /// "1 thread", "2 threads".
 [[nodiscard]] std::string threads_text(int threads);

@@ -1,27 +1,32 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <set>
 #include <stdexcept>
 
-#include "detp/model/optimum/best_ratio.hpp"
-#include "detp/model/rank/choose.hpp"
 #include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "detp/validate/base/search_work.hpp"
-#include "detp/validate/choice/choice.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
 #include "detp/validate/cli/options/cost_options.hpp"
+#include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
+#include "detp/validate/cli/report/answer_rows.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
-#include "detp/validate/stopping/job_batches.hpp"
-#include "run_report.hpp"
-#include "run_until.hpp"
-#include "timed_run.hpp"
+#include "detp/validate/run/run_fields.hpp"
+#include "run_text.hpp"
 
 namespace detp::cli {
 namespace {
+
+using validate::RunAnswer;
+using validate::RunRequest;
+
+const sim::Stopwatch since_start;  // since the program was loaded
 
 struct RunOptions {
   WorkloadOptions workload;
@@ -35,7 +40,10 @@ struct RunOptions {
   bool standard_error = false;
   std::optional<std::string> pairs;
   bool verbose = false;
-  TargetOptions target;
+  std::optional<std::string> target_noise;
+  std::optional<std::string> target_error;
+  std::string confidence = "95%";
+  validate::RunTarget target;  ///< its faces and checkpoint
   std::optional<std::string> share;
   std::optional<std::string> form;
 };
@@ -50,117 +58,98 @@ sim::Estimator parse_estimator(const std::string& text) {
                                           fmt::join(names, ", "), did_you_mean(text, names)));
 }
 
-/// The estimator of a row. The technique photon-map is another name of the estimator `nearest`, which gets its parameters.
-/// Throws std::invalid_argument for an estimator with the technique of another.
-sim::Estimator estimator_of(const RunOptions& options) {
-  const bool photon_map = options.candidate.technique_or(Technique::brute_force) == Technique::photon_map;
-  if (!options.estimator) return photon_map ? sim::Estimator::nearest : sim::Estimator::disc;
-  const sim::Estimator estimator = parse_estimator(*options.estimator);
-  const bool searches = sim::record_of(estimator).finds_pairs;
-  if (options.candidate.technique && searches == photon_map && !(photon_map && estimator == sim::Estimator::nearest))
-    throw std::invalid_argument(fmt::format("the estimator {} does not use {}: leave out --technique or --estimator",
-                                            name(estimator), *options.candidate.technique));
-  if (options.candidate.technique && !searches && estimator != sim::Estimator::nearest)
-    throw std::invalid_argument(
-        fmt::format("the estimator {} searches no pairs: leave out --technique", name(estimator)));
-  return estimator;
+/// Nothing without a target.
+std::optional<validate::RunTarget> target_of(const RunOptions& options) {
+  if (options.target_noise && options.target_error)
+    throw std::invalid_argument("give one of --target-noise and --target-error");
+  validate::RunTarget target = options.target;
+  if (!options.target_noise && !options.target_error) {
+    if (!target.faces.empty())
+      throw std::invalid_argument(
+          "--material and --group say of which samples the error is: give --target-noise or --target-error");
+    if (target.checkpoint)
+      throw std::invalid_argument("--checkpoint keeps one run with --target-noise or --target-error");
+    return std::nullopt;
+  }
+  target.total = options.target_error.has_value();
+  target.error.confidence = parse_share("--confidence", options.confidence);
+  target.error.error = target.total ? parse_share("--target-error", *options.target_error)
+                                    : parse_share("--target-noise", *options.target_noise);
+  return target;
 }
 
-/// Of gather; 0 of other estimators.
-std::uint64_t paths_of(const RunOptions& options, sim::Estimator estimator) {
-  if (!sim::record_of(estimator).needs_scene) return 0;
+/// The parameters that mean something to the row: all of a technique that is named; else those that may be chosen, or are the estimator's.
+model::FixedParameters parameters_of(const RunOptions& options, const RunRequest& request) {
+  if (request.technique && request.technique != Technique::photon_map)
+    return options.candidate.fixed_parameters(*request.technique);
+  model::FixedParameters fixed = options.candidate.given();
+  std::erase_if(fixed.values, [&](const auto& one) {
+    if (request.estimator == sim::Estimator::nearest)
+      return find_parameter(Technique::photon_map, one.first) == nullptr;
+    return !request.searches() || std::ranges::none_of(exact_techniques, [&](Technique technique) {
+      return find_parameter(technique, one.first) != nullptr;
+    });
+  });
+  return fixed;
+}
+
+/// The request of the current row. The technique photon-map is another name of the estimator `nearest`, which gets its parameters.
+RunRequest request_of(const RunOptions& options, const CommonOptions& common) {
+  RunRequest request{.job = options.workload.request(common)};
+  request.job.ranks = common.ranks;
+  if (options.seed) request.job.seed = *options.seed;
+  if (options.candidate.technique) request.technique = options.candidate.technique_or(Technique::brute_force);
+  request.estimator = options.estimator                            ? parse_estimator(*options.estimator)
+                      : request.technique == Technique::photon_map ? sim::Estimator::nearest
+                                                                   : sim::Estimator::disc;
+  request.parameters = parameters_of(options, request);
+  request.most_spheres = options.candidate.stop == SphereStop::max;
+  request.engine = options.candidate.engine;
   const double paths = options.paths.value_or(static_cast<double>(sim::paths_by_default));
   require_count("--paths", paths, 1, 4294967296);
-  return static_cast<std::uint64_t>(paths);
-}
-
-/// The number of threads, at most `most_threads`, on which the closed form predicts the candidate to be fastest.
-int chosen_threads(const Candidate& candidate, const Workload& workload, const CostTable& costs, int most_threads) {
-  try {
-    return model::assess(workload, candidate, costs, most_threads).threads;
-  } catch (const std::invalid_argument&) {  // no closed form for these parameters
-    return most_threads;
-  }
-}
-
-/// Returns the requested technique on `threads` threads, or the technique that the closed forms predict to be fastest, on
-/// at most so many. The closed forms also choose the parameters that the options leave open. The job is measured only if they choose.
-Requested complete(const CandidateOptions& options, const validate::Job& job, const CostTable& costs, int threads) {
-  if (options.technique && !options.stop) {
-    const Technique given = options.technique_or(Technique::brute_force);
-    const model::FixedParameters fixed = options.fixed_parameters(given);
-    if (!model::is_open(given, fixed)) return {candidate_with(given, fixed), sim::thread_count(threads)};
-  }
-  const Workload& workload = job.workload();
-  const int most = sim::useful_threads(threads);
-  const Technique technique =
-      options.technique ? options.technique_or(Technique::brute_force)
-                        : validate::choose({.workload = workload, .threads = most}, costs).best().candidate.technique;
-  const model::FixedParameters fixed = options.fixed_parameters(technique);
-  auto candidate = model::complete(technique, fixed, workload, costs);
-  if (!candidate) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));
-  if (auto* cache = std::get_if<SphereCacheParameters>(&candidate->parameters);
-      cache != nullptr && options.stop == SphereStop::max)
-    cache->spheres = model::sphere_stops(workload, costs[technique], Form::corrected, {cache->ratio}).max;
-  return {*candidate,
-          options.technique ? sim::thread_count(threads) : chosen_threads(*candidate, workload, costs, most)};
-}
-
-/// The same for any estimator: those that search no pairs have no technique, and run on `threads` threads.
-Requested requested(const CandidateOptions& options, sim::Estimator estimator, const validate::Job& job,
-                    const CostTable& costs, int threads) {
-  if (sim::record_of(estimator).finds_pairs) return complete(options, job, costs, threads);
-  if (estimator != sim::Estimator::nearest) return {{}, sim::thread_count(threads)};
-  return {model::candidate_with(Technique::photon_map, options.fixed_parameters(Technique::photon_map)),
-          sim::thread_count(threads)};
-}
-
-/// What the options name and the candidate is not, as "leaf 16"; empty if it is all of it.
-std::string missing_in(const Candidate& candidate, const CandidateOptions& options) {
-  if (const Technique asked = options.technique_or(candidate.technique); asked != candidate.technique)
-    return std::string(name(asked));
-  for (const auto& asked : options.fixed_parameters(candidate.technique).values)
-    if (find_parameter(candidate.technique, asked.first)->get(candidate.parameters) != asked.second)
-      return std::visit([&](const auto& one) { return fmt::format("{} {}", asked.first, one); }, asked.second);
-  return "";
-}
-
-/// Nothing if the option is not set. Throws std::invalid_argument for an unknown name.
-std::optional<sim::Share> share_of(const RunOptions& options) {
-  if (!options.share) return std::nullopt;
-  return one_of("--share", *options.share, {"rays", "discs"}) == "rays" ? sim::Share::rays : sim::Share::discs;
-}
-
-sim::EstimateRequest request_of(const RunAnswer& answer, const validate::Job& job) {
-  sim::EstimateRequest request{.estimator = answer.estimator,
-                               .candidate = answer.candidate,
-                               .mesh = job.scene ? &job.scene->mesh : nullptr,
-                               .scene = job.scene.get(),
-                               .paths = answer.paths,
-                               .seed = job.seed};
-  if (const auto* map = std::get_if<PhotonMapParameters>(&answer.candidate.parameters)) {
-    request.nearest = map->nearest;
-    request.nearest_form = map->form;
-  }
+  request.paths = static_cast<std::uint64_t>(paths);
+  if (options.form) request.form = choice_named<Form>(*options.form);
+  request.repeat = options.repeat;
+  request.pairs = options.pairs.has_value();
+  request.standard_error = options.standard_error;
+  request.target = target_of(options);
+  if (options.share)
+    request.share =
+        one_of("--share", *options.share, {"rays", "discs"}) == "rays" ? sim::Share::rays : sim::Share::discs;
   return request;
 }
 
-void check_options(const RunOptions& options, std::size_t rows) {
+/// Throws std::invalid_argument for options that exclude each other, and for those that no row uses.
+void check_options(const RunOptions& options, const std::vector<RunRequest>& candidates, std::size_t rows,
+                   bool in_memory) {
   if (rows > 1 && (options.per_disc || options.pairs))
     throw std::invalid_argument("--per-disc and --pairs write the hits of one run; give one value for each option");
-  if (options.standard_error && !options.per_disc)
+  if (rows > 1 && in_memory) throw std::invalid_argument("one run is kept in memory; give one value for each option");
+  if (options.standard_error && !options.per_disc && !in_memory)
     throw std::invalid_argument("--standard-error is a column of --per-disc FILE; give that too");
-  if (options.target.given()) {
-    static_cast<void>(options.target.target());
-    if (options.pairs || options.repeat > 0)
-      throw std::invalid_argument("a run until an error has no --pairs and --repeat");
-  }
-  if (!options.target.given() && !options.target.faces.empty())
-    throw std::invalid_argument(
-        "--material and --group say of which samples the error is: give --target-noise or --target-error");
-  static_cast<void>(share_of(options));
-  if (options.target.checkpoint && (!options.target.given() || rows > 1))
+  if (options.target.checkpoint && rows > 1)
     throw std::invalid_argument("--checkpoint keeps one run with --target-noise or --target-error");
+  std::set<std::string_view> used;
+  for (const RunRequest& one : candidates) {
+    check(one);
+    for (const auto& parameter : one.parameters.values) used.insert(parameter.first);
+  }
+  for (const auto& parameter : options.candidate.given().values)
+    if (!used.contains(parameter.first))
+      throw std::invalid_argument(
+          fmt::format("--{} is a parameter of no technique that may run here", parameter.first));
+  if (options.paths && std::ranges::none_of(candidates, &RunRequest::gathers))
+    throw std::invalid_argument("--paths is for --estimator gather");
+}
+
+/// The requests of the rows of one problem.
+std::vector<RunRequest> candidates_of(RunOptions& options, const CommonOptions& common) {
+  std::vector<RunRequest> all;
+  for (std::size_t row = 0; row < options.candidate.lists.rows(); ++row) {
+    options.candidate.lists.choose_row(row);
+    all.push_back(request_of(options, common));
+  }
+  return all;
 }
 
 /// Returns the progress if a stop request ended the run, the writing or the timed runs; else nothing.
@@ -177,7 +166,6 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const validat
     write_per_disc(*options.per_disc, answer.run, job.vertices, {});
   }
   if (outcome.stopped) return outcome.progress;
-  const bool in_time = !answer.until || answer.until->result.reason != validate::StopReason::time;
   try {
     if (options.per_disc) write_per_disc(*options.per_disc, answer.run, job.vertices, stop);
     if (options.pairs) write_pairs(*options.pairs, answer.run, job.file_order, stop);
@@ -185,149 +173,11 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const validat
     note(common, fmt::format("{}; the file is not kept", stopped.what()));
     return stopped.progress();
   }
-  if (!in_time) return outcome.progress;
+  if (answer.until && answer.until->result.reason == validate::StopReason::time) return outcome.progress;
   const std::size_t timed = answer.timing.all.size();
   if (options.repeat > 0 && timed < static_cast<std::size_t>(options.repeat))
     return sim::Progress{timed, static_cast<std::uint64_t>(options.repeat), "timed runs"};
   return std::nullopt;
-}
-
-/// Throws std::invalid_argument if a technique has no formulas of the form requested, or none is named.
-std::optional<Form> form_of(const RunOptions& options) {
-  if (!options.form) return std::nullopt;
-  if (options.target.given())
-    throw std::invalid_argument("--form changes the predicted counts; a run until an error has none");
-  const Form form = choice_named<Form>(*options.form).value();
-  if (!options.candidate.technique)
-    throw std::invalid_argument("--form is of one technique's formulas: give --technique");
-  const Technique technique = options.candidate.technique_or(Technique::sphere_cache);
-  if (form == Form::published && !is_published(technique))
-    throw std::invalid_argument(
-        fmt::format("the paper has no formulas for {}; it has for sphere-cache, sphere-cache-published and octree",
-                    name(technique)));
-  return form;
-}
-
-/// What the estimators of all rows need.
-struct Needs {
-  bool rays = false;
-  bool all_rays = false;  ///< in memory: of estimators that need more than the pairs of a block of rays
-  bool scene = false;
-  bool paths = false;  ///< backward
-};
-
-Needs needs_of(RunOptions& options, std::size_t rows) {
-  Needs needs;
-  for (std::size_t row = 0; row < rows; ++row) {
-    options.candidate.lists.choose_row(row);
-    const sim::Estimator estimator = estimator_of(options);
-    if (options.target.given()) validate::require_batches(estimator);
-    needs.all_rays = needs.all_rays || estimator != sim::Estimator::disc || options.target.given();
-    const sim::EstimatorRecord& record = sim::record_of(estimator);
-    needs.scene = needs.scene || record.needs_mesh || record.needs_scene || options.target.given();
-    needs.paths = needs.paths || record.needs_scene;
-    needs.rays = needs.rays || !record.needs_scene;
-    static_cast<void>(paths_of(options, estimator));
-    static_cast<void>(form_of(options));
-  }
-  if (options.paths && !needs.paths) throw std::invalid_argument("--paths is for --estimator gather");
-  return needs;
-}
-
-constexpr double most_rays_by_default = 1e9;  ///< of a run until an error
-
-/// Chooses, and runs the choice with what choosing has sorted.
-void choose_and_run(RunAnswer& answer, const validate::Question& question, const CostTable& costs,
-                    sim::RunOptions options, const sim::ReportPhase& progress) {
-  const sim::Problem& problem = *question.problem;
-  answer.choice = validate::choose(question, costs);
-  answer.candidate = answer.choice->best().candidate;
-  answer.threads = options.threads = answer.choice->best().threads;
-  if (progress)
-    progress({std::string(name(answer.candidate.technique)), 0, 1,
-              validate::search_work(answer.choice->best().counts, options.engine)});
-  if (answer.estimator != sim::Estimator::disc) {
-    answer.run.outcome = sim::estimate(problem, {answer.estimator, answer.candidate}, options);
-    return;
-  }
-  try {
-    answer.run.outcome = sim::run(problem, *validate::build_choice(*answer.choice, problem, options), options);
-  } catch (const sim::Stopped&) {  // stopped while the index was built
-    answer.run.outcome = sim::unsearched_outcome(problem, options);
-  }
-}
-
-/// Nothing if the run was stopped before its first ray.
-std::optional<RaysTaken> taken_of(const sim::PhotonSource& source, const sim::Outcome& outcome) {
-  const std::uint64_t rays = outcome.stopped ? outcome.progress.done : source.size();
-  const std::uint64_t photons = source.photons_of(rays);
-  if (photons == 0) return std::nullopt;
-  return RaysTaken{static_cast<double>(rays), static_cast<double>(photons), source.light_of(photons)};
-}
-
-RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CostTable& costs,
-                  const CommonOptions& common, const std::stop_token& stop, const sim::ReportPhase& progress) {
-  const validate::Question question{.problem = job.stream ? nullptr : &job.problem(),
-                                    .effects = job.measuring.effects,
-                                    .surface = &job.surface,
-                                    .purpose = validate::Purpose::one_search,
-                                    .threads = common.threads,
-                                    .stop = stop};
-  const sim::Estimator estimator = estimator_of(options);
-  const bool searches = sim::record_of(estimator).finds_pairs;
-  const bool until = options.target.given();
-  sim::Ranks* const ranks = job.stream || until ? common.ranks : nullptr;  // that share the search
-  if (ranks == nullptr && !common.answers()) return {};
-  const bool by_pilot =
-      searches && !options.candidate.technique && validate::reachable_rigor(question, costs) == Rigor::pilot;
-  const CostTable priced = validate::costs_for(question, costs);
-  const auto by_options = [&] { return requested(options.candidate, estimator, job, priced, common.threads); };
-  const Requested choice = by_pilot || until ? Requested{} : agreed(ranks, by_options);
-  RunAnswer answer{.candidate = choice.candidate,
-                   .estimator = estimator,
-                   .paths = paths_of(options, estimator),
-                   .threads = choice.threads,
-                   .costs = priced,
-                   .engine = options.candidate.engine,
-                   .form = form_of(options),
-                   .repeat = options.repeat,
-                   .standard_error = options.standard_error,
-                   .whole = validate::whole_inputs(options.workload.request(common), job, job.given.rays),
-                   .random_rays = !options.workload.request(common).ray_file};
-  if (until) {
-    const double most_rays = options.workload.request(common).rays.value_or(most_rays_by_default);
-    const auto choose = [&]() -> Requested {
-      if (!by_pilot) return by_options();
-      const validate::Choice chosen = validate::choose(question, priced);
-      return {chosen.best().candidate, chosen.best().threads};
-    };
-    const auto missing = [&](const Candidate& candidate) {
-      return searches ? missing_in(candidate, options.candidate) : std::string();
-    };
-    run_to_target(answer, job, options.target, most_rays, {choose, missing}, common.threads, stop, progress, ranks);
-    return answer;
-  }
-  const Engine engine = options.candidate.engine;
-  sim::RunOptions run{.pairs = options.pairs.has_value(),
-                      .engine = engine,
-                      .stop = stop,
-                      .threads = by_pilot ? common.threads : choice.threads};
-  run.standard_error = options.standard_error;
-  const Together together{ranks, share_of(options)};
-  const double share_of_first = 1.0 / (1 + options.repeat);
-  if (by_pilot) {
-    answer.run.prepare_seconds = job.check_seconds;
-    answer.run.rays_in_memory = job.rays.size();
-    choose_and_run(answer, question, costs, run, sim::part_of(progress, 0, share_of_first));
-  } else {
-    answer.run = run_job(job, request_of(answer, job), run, sim::part_of(progress, 0, share_of_first), together);
-  }
-  if (job.photon_stream && common.answers()) answer.taken = taken_of(*job.photon_stream, answer.run.outcome);
-  run.threads = answer.threads;
-  run.count = run.pairs = false;
-  answer.timing = time_runs(job, request_of(answer, job), answer.run, answer.run.outcome.stopped ? 0 : options.repeat,
-                            run, sim::part_of(progress, share_of_first, 1), together);
-  return answer;
 }
 
 /// Divides the progress among the rows of a table. A scene with its rays is expected to take a constant time (for scene
@@ -364,13 +214,40 @@ class RowProgress {
   double after_job_ = 0;
 };
 
+/// The resolved inputs; those of the job are there.
+void add_inputs(Json& inputs, const RunRequest& request) {
+  inputs["engine"] = name(request.engine);
+  inputs["threads"] = sim::thread_count(request.job.threads);  // a cap if the command chooses
+  inputs["repeat"] = request.repeat;
+  inputs["form"] = request.form ? Json(name(*request.form)) : Json();
+  inputs.erase("paths");  // of the row before
+  if (request.gathers()) inputs["paths"] = request.paths;
+  if (!request.target) return;
+  const validate::RunTarget& target = *request.target;
+  inputs["materials"] = target.faces.materials;
+  inputs["groups"] = target.faces.groups;
+  inputs["target_noise"] = target.total ? Json() : Json(target.error.error);
+  inputs["target_error"] = target.total ? Json(target.error.error) : Json();
+  if (!request.job.ray_file) inputs["rays"] = request.job.rays.value_or(validate::most_rays_by_default);
+}
+
+TextColumns run_text_columns(const Screen& screen) {
+  return {{"scene", "field", "ray_file", "front_facing", "seed", "rays", "samples", "disc_radius", "estimator", "paths",
+           "engine", "technique", "parameters"},
+          {"hits", "rebuild_time", "predicted_rebuild_time", "intersect_time", "predicted_intersect_time", "seconds",
+           "predicted_seconds"},
+          screen,
+          "rebuild_time: T_R at t = 1, tests of rays against spheres or boxes. intersect_time: T_I at u = 1, tests "
+          "against discs. Both as in detp model, whose unit costs are 1."};
+}
+
 Result run_run(RunOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   require_count("--repeat", options.repeat, 0, 10000);
   ValueLists& problems = options.workload.lists;
   ValueLists& candidates = options.candidate.lists;
   const std::size_t expected = rows_in(problems, candidates);
-  check_options(options, expected);
-  const Needs needs = needs_of(options, candidates.rows());
+  problems.choose_row(0);
+  check_options(options, candidates_of(options, common), expected, common.in_memory);
   const CostsInUse costs = options.costs.costs(common);
   const ProgressLine progress(common.quiet);
   RowProgress rows(options, common);
@@ -381,58 +258,47 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   std::optional<sim::Progress> stopped;
   bool not_reached = false;
   bool predicted = false;
+  std::shared_ptr<const validate::JobAndRun> kept;
   const auto prepare = [&] {
-    validate::JobRequest request = options.workload.request(common);
-    if (options.seed) request.seed = *options.seed;
-    if (options.target.given() && !request.ray_file) request.rays = first_rays(request.rays);
-    request.stream = request.store_discs = !needs.all_rays;
-    request.keep_scene = needs.scene;
-    request.without_rays = !needs.rays;
-    request.in_batches = options.target.given();
-    request.ranks = common.ranks;
-    validate::Job job = validate::make_job(request, stop, rows.job(progress.report()));
-    note_all(common, job);
-    if (options.standard_error && request.ray_file && !job.numbered())
+    const validate::JobRequest request = validate::job_request(candidates_of(options, common));
+    auto job = std::make_shared<validate::Job>(validate::make_job(request, stop, rows.job(progress.report())));
+    note_all(common, *job);
+    if (options.standard_error && request.ray_file && !job->numbered())
       note(common, "standard errors: the rays have no column photon, so each ray counts as a photon of its own");
-    if (!is_short && common.answers()) inputs = to_json(job, request);
+    if (!is_short && common.answers()) inputs = to_json(*job, request);
     return job;
   };
-  const auto answer = [&](const validate::Job& job) {
-    const RunAnswer found =
-        run_one(options, job, costs.of(options.candidate.engine), common, stop, rows.next(progress.report()));
+  const auto answer = [&](const std::shared_ptr<validate::Job>& shared) {
+    const validate::Job& job = *shared;
+    RunRequest request = request_of(options, common);
+    request.costs = costs.of(request.engine);
+    RunAnswer found = validate::answer(job, request, stop, rows.next(progress.report()));
     if (!common.answers()) return AnswerRow{};
     for (const std::string& one : answer_warnings(job, found)) note(common, "warning: " + one);
     if (found.until && found.until->mirror_share > 0) note(common, validate::mirror_notice(found.until->mirror_share));
     stopped = write_hits(options, job, found, common, stop);
     not_reached = found.until && found.until->result.reason != validate::StopReason::target;
-    if (expected == 1) text = to_text(job, found, common.screen(), options.verbose);
+    const validate::Whole measured = measured_whole(job, found, since_start.seconds());
+    if (expected == 1) text = to_text(job, found, measured, common.screen(), options.verbose);
     if (is_short) return AnswerRow{Json::object(), {{"stopped", found.run.outcome.stopped}}, {Json::object()}};
-    inputs["engine"] = name(options.candidate.engine);
-    inputs["threads"] = sim::thread_count(common.threads);  // a cap if the command chooses
-    inputs["repeat"] = options.repeat;
-    inputs["form"] = options.form ? Json(*options.form) : Json();
-    inputs.erase("paths");  // of the row before
-    if (gathers(found)) inputs["paths"] = found.paths;
-    if (options.target.given()) {
-      inputs["materials"] = options.target.faces.materials;
-      inputs["groups"] = options.target.faces.groups;
-      inputs["target_noise"] = options.target.noise ? Json(found.until->target) : Json();
-      inputs["target_error"] = options.target.error ? Json(found.until->target) : Json();
-      if (!options.workload.request(common).ray_file)
-        inputs["rays"] = options.workload.request(common).rays.value_or(most_rays_by_default);
-    }
-    AnswerRow row = run_row(inputs, job, found, expected == 1);
+    add_inputs(inputs, request);
+    const validate::ShownRun shown{job, found, expected == 1 ? std::optional(measured) : std::nullopt};
+    AnswerRow row{inputs, json_of(validate::run_fields(), shown), {workload_cells(inputs)}};
+    row.cells.front().update(cells_of(validate::run_fields(), shown));
     predicted = predicted || row.answer.contains("predicted_seconds");
+    if (common.in_memory) kept = std::make_shared<validate::JobAndRun>(std::move(*shared), std::move(found));
     return row;
   };
   const std::vector<AnswerRow> answers = answer_all(problems, candidates, stop, prepare, answer);
   if (!common.answers()) return {};
   if (predicted) note_doubt(costs, common);
-  Result result = result_of(answers, expected, run_columns(), run_text_columns(common.screen()));
+  Result result = result_of(answers, expected, validate::united(workload_columns(), columns_of(validate::run_fields())),
+                            run_text_columns(common.screen()));
   if (expected == 1) {
     result.text = text;
     result.stopped = stopped;
     result.not_reached = not_reached && !stopped;
+    result.run = std::move(kept);
   }
   return result;
 }
@@ -481,13 +347,13 @@ Command run_command(CLI::App& program) {
                 "add to --per-disc the standard error of each irradiance, for independent photons, and where a few "
                 "photons bring most of it, an upper bound (95 %) of the irradiance");
   app->add_option("--pairs", options->pairs, "write the hits as CSV ray,disc");
-  app->add_option("--target-noise", options->target.noise,
+  app->add_option("--target-noise", options->target_noise,
                   "run until the noise (root mean square over the discs by area, relative to the root mean square "
                   "irradiance) is smaller, as 5%; --rays is then the limit (1e9); default: not");
-  app->add_option("--target-error", options->target.error,
+  app->add_option("--target-error", options->target_error,
                   "the same of noise and bias together; the bias comes from a pilot; default: not");
   add_face_names(*app, options->target.faces);
-  app->add_option("--confidence", options->target.confidence, "that the noise of this run is smaller; default: 95%");
+  app->add_option("--confidence", options->confidence, "that the noise of this run is smaller; default: 95%");
   app->add_option("--checkpoint", options->target.checkpoint,
                   "with a target: keep in this file what is found, so that the run can be killed; default: none");
   app->add_flag("--resume", options->target.resume, "go on from the checkpoint; default: begin anew");

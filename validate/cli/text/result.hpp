@@ -1,10 +1,15 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "detp/sim/base/progress.hpp"
 #include "detp/validate/base/json.hpp"
+
+namespace detp::validate {
+struct JobAndRun;
+}  // namespace detp::validate
 
 /// The form of a command's result.
 namespace detp::cli {
@@ -25,6 +30,7 @@ struct Result {
   bool output_is_written = false;  ///< the command itself wrote the file of --output; the result goes to stdout
   bool not_reached = false;        ///< the result is complete, and says that the target is out of reach: exit code 3
   bool answers_at_limit = false;   ///< the result is complete even if the time limit ended the work
+  std::shared_ptr<const validate::JobAndRun> run = {};  ///< of `run`, one row, if CommonOptions::in_memory
   /// the progress if a stop request ended the command, so that the result is partial; else nothing
   std::optional<sim::Progress> stopped = {};
 };

@@ -156,6 +156,17 @@ TEST_SUITE("run --estimator") {
     refuses("--estimator gather --samples 10 --disc-radius 0.1 --scene-side 1", "needs a scene");
     refuses("@cornell --rays 1000 --estimator gather,disc --light surface --field isotropic", "photon paths");
   }
+
+  TEST_CASE("a parameter is used, or refused: never ignored") {
+    CHECK(result_of("run @cornell --rays 2000 --leaf 8")["parameters"]["leaf"] == 8);
+    CHECK(result_of("run @cornell --rays 2000 --ratio 0.65")["technique"] == "sphere-cache");
+    CHECK(result_of("run @cornell --target-noise 50% --leaf 8")["parameters"]["leaf"] == 8);
+    CHECK(result_of("run @cornell --rays 2000 --estimator disc,nearest --nearest 20")["rows"].size() == 2);
+    for (const std::string wrong : {"--nearest 3", "--estimator triangle-hits --leaf 8", "--leaf 8 --cells 3"}) {
+      CAPTURE(wrong);
+      CHECK(detp("run @cornell --rays 2000 " + wrong).code == 2);
+    }
+  }
 }
 
 }  // namespace detp::support

@@ -7,26 +7,27 @@
 #include <string>
 #include <vector>
 
-#include "detp/model/rank/registry.hpp"
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/estimate/estimate.hpp"
 #include "detp/sim/ranks/ranks.hpp"
 #include "detp/sim/reference/missed_light.hpp"
 #include "detp/sim/technique/ranked.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "detp/validate/choice/choice.hpp"
 #include "detp/validate/job/job.hpp"
 
 /// A run of a candidate on which all ranks agree, its times, and the files of what it found.
-namespace detp::cli {
+namespace detp::validate {
 
-/// A candidate, and the number of threads of its run.
-struct Requested {
+/// A candidate, the number of threads of its run, and the choice if it came by one.
+struct RunCandidate {
   Candidate candidate = {};
   int threads = 1;
+  std::optional<Choice> choice = {};
 };
 
-/// What rank 0 requests, on all ranks; `ranks` null: on this process alone.
-[[nodiscard]] Requested agreed(sim::Ranks* ranks, const std::function<Requested()>& of_first);
+/// What rank 0 has chosen, on all ranks, of which others have no choice; `ranks` null: on this process alone.
+[[nodiscard]] RunCandidate agreed(sim::Ranks* ranks, const std::function<RunCandidate()>& of_first);
 
 /// A run over all rays of a job. The rays are in memory or a stream.
 struct JobRun {
@@ -63,10 +64,10 @@ struct Together {
 };
 
 /// Runs the estimator; the rays of a stream by its technique, which finds pairs. Ranks share the rays of a stream, or the discs; on all but rank 0 the
-/// outcome is that of run_on_ranks there. Gather also finds how much light it misses. Other searches do not know of ranks.
-[[nodiscard]] JobRun run_job(const validate::Job& job, const sim::EstimateRequest& request,
-                             const sim::RunOptions& options, const sim::ReportPhase& progress,
-                             const Together& together = {});
+/// outcome is that of run_on_ranks there. Gather also finds how much light it misses. Other searches do not know of ranks. `choice`: by a pilot, whose sorted
+/// discs are used; null: none.
+[[nodiscard]] JobRun run_job(const Job& job, const sim::EstimateRequest& request, const sim::RunOptions& options,
+                             const sim::ReportPhase& progress, const Together& together = {}, Choice* choice = nullptr);
 
 /// Times from discs and rays in memory to irradiance in memory, in seconds.
 struct Timing {
@@ -80,8 +81,8 @@ struct Timing {
 /// Times `repeat` runs without counting; if `repeat` is 0, or a stop request ended the first of them, returns the times
 /// of the counting run. The phases returned are those of the run with the median time, or for an even number of runs,
 /// of the slower of the two middle runs.
-[[nodiscard]] Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const JobRun& counted,
-                               int repeat, const sim::RunOptions& options, const sim::ReportPhase& progress,
+[[nodiscard]] Timing time_runs(const Job& job, const sim::EstimateRequest& request, const JobRun& counted, int repeat,
+                               const sim::RunOptions& options, const sim::ReportPhase& progress,
                                const Together& together = {});
 
 // The files of what a run found appear complete or not at all. Throw sim::FileError, and sim::Stopped on a stop request.
@@ -94,4 +95,4 @@ void write_pairs(const std::string& path, const JobRun& run, const std::vector<s
 void write_per_disc(const std::string& path, const JobRun& run, const std::vector<std::uint32_t>& vertices,
                     const std::stop_token& stop);
 
-}  // namespace detp::cli
+}  // namespace detp::validate

@@ -1,4 +1,4 @@
-#include "timed_run.hpp"
+#include "job_run.hpp"
 
 #include <fmt/format.h>
 
@@ -15,34 +15,41 @@
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/sim/technique/ranked.hpp"
 #include "detp/sim/technique/streamed.hpp"
+#include "detp/validate/base/json.hpp"
 #include "detp/validate/base/search_work.hpp"
 #include "detp/validate/choice/candidate_json.hpp"
-#include "detp/validate/cli/options/candidate_options.hpp"
-#include "detp/validate/cli/text/result.hpp"
 
-namespace detp::cli {
+namespace detp::validate {
 namespace {
 
 /// Predicted work of a run, in units of sim::StopCheck; 0 if the candidate has no closed form.
-double predicted_work(const Workload& workload, const Candidate& candidate, Engine engine) {
-  const auto work = [&](const Candidate& one) {
-    return validate::search_work(model::predict(workload, one, engine), engine);
-  };
+double predicted_work(const Workload& workload, const Candidate& candidate, Engine engine, const Choice* choice) {
+  if (choice != nullptr) return search_work(choice->best().counts, engine);
   try {
-    if (model::has_closed_form(candidate.technique)) return work(candidate);
+    if (model::has_closed_form(candidate.technique))
+      return search_work(model::predict(workload, candidate, engine), engine);
   } catch (const std::invalid_argument&) {  // no closed form for these parameters
   }
   return 0;
 }
 
+/// Searches with the index of a choice.
+sim::Outcome run_choice(Choice& choice, const sim::Problem& problem, const sim::RunOptions& options) {
+  try {
+    return sim::run(problem, *build_choice(choice, problem, options), options);
+  } catch (const sim::Stopped&) {  // stopped while the index was built
+    return sim::unsearched_outcome(problem, options);
+  }
+}
+
 }  // namespace
 
-JobRun run_job(const validate::Job& job, const sim::EstimateRequest& request, const sim::RunOptions& options,
-               const sim::ReportPhase& progress, const Together& together) {
+JobRun run_job(const Job& job, const sim::EstimateRequest& request, const sim::RunOptions& options,
+               const sim::ReportPhase& progress, const Together& together, Choice* choice) {
   const Candidate& candidate = request.candidate;
   const bool pairs = record_of(request.estimator).finds_pairs;
   const std::string doing(pairs ? name(candidate.technique) : name(request.estimator));
-  const double work = progress && pairs ? predicted_work(job.given, candidate, options.engine) : 0;
+  const double work = progress && pairs ? predicted_work(job.given, candidate, options.engine, choice) : 0;
   const double block = job.stream ? static_cast<double>(sim::block_in_memory(job.disc_count())) : job.given.rays;
   const double each = std::min(1.0, block / std::max(1.0, job.given.rays));  // a block's share of the rays
   const auto show = [&](double done) {
@@ -67,7 +74,10 @@ JobRun run_job(const validate::Job& job, const sim::EstimateRequest& request, co
             std::move(ranked.seconds),   share,
             std::move(ranked.results)};
   }
-  JobRun run{.outcome = sim::estimate(job.problem(), request, reporting), .prepare_seconds = job.check_seconds};
+  const bool by_choice = choice != nullptr && request.estimator == sim::Estimator::disc;
+  JobRun run{.outcome = by_choice ? run_choice(*choice, job.problem(), reporting)
+                                  : sim::estimate(job.problem(), request, reporting),
+             .prepare_seconds = job.check_seconds};
   if (!sim::record_of(request.estimator).needs_scene) {
     run.rays_in_memory = job.rays.size();
     return run;
@@ -80,7 +90,7 @@ JobRun run_job(const validate::Job& job, const sim::EstimateRequest& request, co
   return run;
 }
 
-Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const JobRun& counted, int repeat,
+Timing time_runs(const Job& job, const sim::EstimateRequest& request, const JobRun& counted, int repeat,
                  const sim::RunOptions& options, const sim::ReportPhase& progress, const Together& together) {
   std::vector<Timing> timings;
   const double each = 1.0 / std::max(1, repeat);
@@ -98,15 +108,18 @@ Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, 
   return median;
 }
 
-Requested agreed(sim::Ranks* ranks, const std::function<Requested()>& of_first) {
+RunCandidate agreed(sim::Ranks* ranks, const std::function<RunCandidate()>& of_first) {
   if (ranks == nullptr) return of_first();
+  RunCandidate own;
   const Json json = Json::parse(sim::from_first(*ranks, [&] {
-    const Requested one = of_first();
+    own = of_first();
     return Json{
-        {"technique", name(one.candidate.technique)}, {"parameters", to_json(one.candidate)}, {"threads", one.threads}}
+        {"technique", name(own.candidate.technique)}, {"parameters", to_json(own.candidate)}, {"threads", own.threads}}
         .dump();
   }));
-  return {candidate_of(parse_technique(json.at("technique")), json.at("parameters")), json.at("threads")};
+  const std::string technique = json.at("technique");
+  return {candidate_of(technique_named(technique).value(), json.at("parameters")), json.at("threads"),
+          std::move(own.choice)};
 }
 
 void write_pairs(const std::string& path, const JobRun& run, const std::vector<std::uint32_t>& order,
@@ -155,4 +168,4 @@ void write_per_disc(const std::string& path, const JobRun& run, const std::vecto
   file.commit();
 }
 
-}  // namespace detp::cli
+}  // namespace detp::validate

@@ -1,0 +1,83 @@
+"""Runs in scenes."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from typing import Any, Dict, List, Optional, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _show
+from ._declarations import ffi
+from ._library import LongCall, Progress, call, lib, make, owned
+from .found import Floats, _PerDisc
+
+
+@dataclass(frozen=True, repr=False)
+class Run(_PerDisc):
+    """What a run found. Arrays have an element for each disc."""
+
+    centres: Floats  #: (n, 3) where the discs are
+    normals: Floats  #: (n, 3)
+    radii: Floats  #: (n,)
+    hits: npt.NDArray[np.uint64]  #: (n,) rays that cross the disc
+    irradiance: Floats  #: (n,)
+    standard_error: Optional[Floats]  #: (n,) of the irradiance; infinite with fewer than two photons
+    upper_bound: Optional[Floats]  #: (n,) one-sided, 95 %, of the irradiance
+    answer: Dict[str, Any]  #: what the command prints as JSON: technique, counts, seconds, predictions, errors
+
+    def _columns(self) -> Dict[str, Any]:
+        places = {name: self.centres[:, axis] for axis, name in enumerate("xyz")}
+        errors = {} if self.standard_error is None else {"standard_error": self.standard_error,
+                                                         "upper_bound": self.upper_bound}
+        return {**places, "radius": self.radii, "hits": self.hits, "irradiance": self.irradiance, **errors}
+
+    def _rows(self) -> List[Tuple[str, object]]:
+        return [("technique", self.answer["technique"] or self.answer["estimator"]), ("discs", len(self.hits)),
+                ("rays", self.answer["rays"]), ("hits", self.answer["hits"]),
+                ("mean irradiance", self.answer["mean_irradiance"]),
+                ("seconds", _show.seconds(self.answer["seconds"]["total"]))]
+
+    def __repr__(self) -> str:
+        return f"Run({', '.join(f'{name}: {value}' for name, value in self._rows())})"
+
+    def _repr_html_(self) -> str:
+        return _show.table("Run", self._rows())
+
+
+def run(scene: Optional[Union[str, os.PathLike[str]]] = None, *, progress: Optional[Progress] = None,
+        **options: object) -> Run:
+    """What the command `detp run` does, with the result in arrays: `run("@cornell", rays=1e5, technique="grid")`.
+
+    :param scene: a mesh file or a built-in scene; None: `discs` and `ray_file` name files.
+    :param progress: called with what is done; the work stops if it raises.
+    :param options: those of the command, with underscores: `target_noise="5%"`, `disc_radius="2%"`, `standard_error=True`.
+
+    Raises ValueError for wrong options, OSError for files, MemoryError; what `progress` raises.
+    """
+    words = [] if scene is None else [os.fspath(scene)]
+    for name, value in options.items():
+        if value is None or value is False:
+            continue
+        words.append("--" + name.replace("_", "-"))
+        if value is not True:
+            words.append(repr(value) if isinstance(value, float) else str(value))
+    texts = [ffi.new("char[]", os.fsencode(word)) for word in words]
+    handle = owned("detp_run")
+    long = LongCall(progress)
+    long.run(lib.detp_run_create, ffi.new("const char *[]", texts), len(texts), long.callback, ffi.NULL, handle)
+    view = make("detp_run_view")
+    call(lib.detp_run_look, handle[0], view)
+    count = int(view.discs)
+
+    def array(pointer: Any, width: int, kind: Any) -> Any:
+        return np.frombuffer(ffi.buffer(pointer, 8 * count * width), kind).copy() if pointer != ffi.NULL else None
+
+    return Run(centres=array(view.centres, 3, np.float64).reshape(count, 3),
+               normals=array(view.normals, 3, np.float64).reshape(count, 3), radii=array(view.radii, 1, np.float64),
+               hits=array(view.hits, 1, np.uint64), irradiance=array(view.irradiance, 1, np.float64),
+               standard_error=array(view.standard_error, 1, np.float64),
+               upper_bound=array(view.upper_bound, 1, np.float64), answer=json.loads(ffi.string(view.json).decode()))
