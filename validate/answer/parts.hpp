@@ -127,4 +127,14 @@ template <class Answer, class Value>
       .by(effect_columns(), [](const Answer&, const Json& effects) { return effect_cells(effects); });
 }
 
+/// A list of sentences; in tables one text.
+template <class Answer, class Value>
+[[nodiscard]] Field<Answer> texts_field(const std::string& name, const std::string& meaning, Value value) {
+  return Field<Answer>(name, "", meaning, value).by({name}, [name](const Answer&, const Json& texts) {
+    std::string all;
+    for (const Json& one : texts) all += (all.empty() ? "" : "; ") + one.get<std::string>();
+    return Json{{name, all}};
+  });
+}
+
 }  // namespace detp::validate

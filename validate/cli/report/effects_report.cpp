@@ -4,32 +4,16 @@
 
 #include <algorithm>
 
-#include "detp/model/rank/predict.hpp"
 #include "detp/validate/cli/text/table.hpp"
 
 namespace detp::cli {
 namespace {
-
-/// The effects that are on, but for one that is switched, as --effects takes them.
-sim::EffectSelection switched(const std::vector<sim::EffectReport>& effects, const sim::Effect& one) {
-  std::string names;
-  for (const sim::EffectReport& report : effects) {
-    const bool on = report.on != (report.effect == &one);
-    if (on && !report.effect->is_input) names += (names.empty() ? "" : ",") + sim::option_name(*report.effect);
-  }
-  return sim::EffectSelection(names.empty() ? "none" : names);
-}
 
 /// When an effect is on: "< 2.9", "differs from 1 by more than 0.05".
 std::string condition_text(const sim::Threshold& threshold) {
   return threshold.side == sim::Threshold::Side::apart
              ? fmt::format("differs from {:.4g} by more than {:.4g}", threshold.at, threshold.tolerance)
              : sim::condition(threshold);
-}
-
-double tests(const Workload& workload) {
-  const Counts<double> counts = model::predict(workload, Candidate{Technique::box_tree, BoxTreeParameters{8, 16}});
-  return counts.cull_tests + counts.disc_tests;
 }
 
 }  // namespace
@@ -74,20 +58,6 @@ std::string short_effects_line(const std::vector<sim::EffectReport>& effects) {
       ++off;
   return fmt::format("effects   on{}: {}{}", all_by_hand ? ", by hand" : "", on.empty() ? "none" : on,
                      on.empty() || off == 0 ? "" : fmt::format("; {} off", off));
-}
-
-std::vector<double> tests_if_switched(const validate::Job& job, const std::stop_token& stop) {
-  const auto& effects = job.observed().effects;
-  const sim::Problem& problem = job.problem();
-  const double as_is = tests(job.observed().workload);
-  std::vector<double> ratios;
-  for (const sim::EffectReport& report : effects) {
-    const bool is_input = report.effect->is_input;
-    ratios.push_back(
-        is_input ? 0
-                 : tests(sim::observe(problem, job.surface, switched(effects, *report.effect), stop).workload) / as_is);
-  }
-  return ratios;
 }
 
 std::string effects_table(const sim::Observed& observed, const std::vector<double>& if_switched, const Screen& screen) {

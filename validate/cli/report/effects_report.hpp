@@ -27,10 +27,6 @@ using validate::to_json;
 /// "effects   on: finite paths, occlusion (by hand); 7 off".
 [[nodiscard]] std::string short_effects_line(const std::vector<sim::EffectReport>& effects);
 
-/// What switching an effect by hand changes: predicted tests of a tree of boxes with the effect switched, over those as
-/// they are. 0 for an effect that is a meaning of the input. In the order of the job's effects.
-[[nodiscard]] std::vector<double> tests_if_switched(const validate::Job& job, const std::stop_token& stop);
-
 /// The table of `detp scene`.
 [[nodiscard]] std::string effects_table(const sim::Observed& observed, const std::vector<double>& if_switched,
                                         const Screen& screen);
