@@ -4,6 +4,7 @@
 #include <functional>
 #include <stop_token>
 
+#include "detp/validate/answer/fields.hpp"
 #include "detp/validate/cli/options/common_options.hpp"
 #include "detp/validate/cli/text/result.hpp"
 
@@ -13,7 +14,8 @@ namespace detp::cli {
 struct Command {
   CLI::App* app;
   std::function<Result(const CommonOptions&, std::stop_token)> run;
-  bool on_ranks = false;  ///< several processes may run it together: CommonOptions::ranks
+  bool on_ranks = false;                         ///< several processes may run it together: CommonOptions::ranks
+  std::vector<validate::FieldText> fields = {};  ///< of its answer
 };
 
 [[nodiscard]] Command model_command(CLI::App& program);

@@ -1,9 +1,11 @@
 #include "command_line.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -26,15 +28,37 @@ Units: lengths as in the scene. Irradiance is the rays' power over area. Ke of a
   a light's power is Ke times pi times its area.
 )";
 
-/// The help of a command, short or with all options.
+/// A line for each field of an answer: its name in JSON, what it means, and its columns in CSV if they have other names.
+std::string help_of_fields(const std::vector<validate::FieldText>& fields, std::size_t width) {
+  constexpr std::size_t indent = 26;
+  std::string text = "JSON has these fields besides inputs and provenance, CSV columns of the same names:\n\n";
+  for (const validate::FieldText& field : fields) {
+    std::string line = fmt::format("  {:<{}} {}", field.name, indent - 3, field.meaning);
+    if (!field.unit.empty()) line += fmt::format(" ({})", field.unit);
+    if (field.columns.empty()) line += "; in JSON alone";
+    if (field.columns.size() > 8)
+      line += fmt::format("; columns {}, {} … {}", field.columns[0], field.columns[1], field.columns.back());
+    else if (!field.columns.empty() && field.columns != validate::Columns{field.name})
+      line += fmt::format("; columns {}", fmt::join(field.columns, ", "));
+    text += wrapped(line, width, indent);
+  }
+  return text;
+}
+
+/// The help of a command: short, with all options, or the fields of its answer.
 class HelpFormatter final : public CLI::Formatter {
  public:
-  bool all = false;
+  HelpKind kind = HelpKind::brief;
+  std::span<const Command> commands = {};
 
   std::string make_help(const CLI::App* command, std::string name, CLI::AppFormatMode mode) const override {
     const std::string_view brief = short_help(command->get_name());
     if (brief.empty()) return CLI::Formatter::make_help(command, std::move(name), mode);
-    if (!all) return std::string(brief);
+    if (kind == HelpKind::brief) return std::string(brief);
+    if (kind == HelpKind::fields) {
+      const auto found = std::ranges::find(commands, command, &Command::app);
+      return help_of_fields(found->fields, width_);
+    }
     const bool reads = command->get_option_no_throw("--discs") != nullptr;
     return CLI::Formatter::make_help(command, std::move(name), mode) + std::string(reads ? columns_of_files : "");
   }
@@ -103,7 +127,8 @@ CommandLine::CommandLine()
   // 0 is allowed, because otherwise the parser would report an unknown command as a missing command.
   program_.require_subcommand(0, 1);
   const auto formatter = std::make_shared<HelpFormatter>();
-  all_options_ = &formatter->all;
+  help_ = &formatter->kind;
+  formatter->commands = commands_;
   program_.formatter(formatter);
   program_.footer(
       "detp help COMMAND explains a command and its options that matter most, detp help COMMAND all every option.");
@@ -119,16 +144,15 @@ const Command& CommandLine::parse(int argc, char** argv) {
       throw std::invalid_argument(fmt::format("argument {} is empty, after {}; give it a value", i, argv[i - 1]));
   std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   if (!arguments.empty() && arguments.front() == "help") {
-    arguments.erase(arguments.begin());
-    *all_options_ = arguments.size() > 1 && arguments[1] == "all";
-    arguments.resize(std::min<std::size_t>(arguments.size(), 1));
-    arguments.emplace_back("--help");
+    arguments.front() = "--help";
+    if (arguments.size() > 1) std::swap(arguments[0], arguments[1]);
   }
-  const auto help = std::find_if(arguments.begin(), arguments.end(),
-                                 [](const std::string& one) { return one == "--help" || one == "-h"; });
-  if (help != arguments.end() && std::next(help) != arguments.end() && *std::next(help) == "all") {
-    *all_options_ = true;
-    arguments.erase(std::next(help));
+  const auto help =
+      std::ranges::find_if(arguments, [](const std::string& one) { return one == "--help" || one == "-h"; });
+  if (help != arguments.end() && std::next(help) != arguments.end()) {
+    const std::string& what = *std::next(help);
+    *help_ = what == "all" ? HelpKind::all : what == "fields" ? HelpKind::fields : HelpKind::brief;
+    if (*help_ != HelpKind::brief) arguments.erase(std::next(help));
   }
   if (!arguments.empty() && !arguments.front().starts_with('-')) require_command(arguments.front());
   std::reverse(arguments.begin(), arguments.end());  // the parser expects the reverse order

@@ -7,6 +7,8 @@
 
 namespace detp::cli {
 
+enum class HelpKind { brief, all, fields };
+
 /// The parser of the command line. Parsing only sets the options.
 class CommandLine {
  public:
@@ -38,11 +40,11 @@ class CommandLine {
   CLI::App program_;
   CommonOptions common_;
   std::array<Command, 9> commands_;
-  bool* all_options_ = nullptr;  ///< of the formatter: the help is to have every option
+  HelpKind* help_ = nullptr;  ///< of the formatter
 };
 
 /// What `detp COMMAND --help` shows: the options that matter, in groups, at most 40 lines of 80 columns. `--help all` has
-/// all of them. Empty for an unknown command.
+/// all of them, `--help fields` the fields of the answer. Empty for an unknown command.
 [[nodiscard]] std::string_view short_help(std::string_view command);
 
 /// The JSON that `detp WORDS… --format json` prints. Only files that the words name are written; nothing is printed. Throws

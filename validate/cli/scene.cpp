@@ -69,9 +69,10 @@ Command scene_command(CLI::App& program) {
   app->add_option("--write-mesh", options->files.mesh_file, "write the triangles as PLY");
   app->add_option("--write-discs", options->files.disc_file, "write the discs, as CSV, PLY or NPY by the file's name");
   app->add_option("--write-rays", options->files.ray_file, "write the rays, as CSV, PLY or NPY by the file's name");
-  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
-            return run_scene(*options, common, stop);
-          }};
+  return {
+      app,
+      [options](const CommonOptions& common, const std::stop_token& stop) { return run_scene(*options, common, stop); },
+      false, describe_fields(validate::scene_fields())};
 }
 
 }  // namespace detp::cli

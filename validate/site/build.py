@@ -71,6 +71,16 @@ def linked(text: str, page: Path, place: Path, pages: Path) -> str:
                    for part in parts)
 
 
+def pages_of_answers(build: Path, pages: Path) -> None:
+    """What the fields of each command's answer mean, as the command says."""
+    commands = ["choose", "run", "model", "validate", "scene", "bench", "accuracy", "calibrate"]
+    text = "# Fields of the answers\n\nAs `detp COMMAND --help fields` prints them.\n"
+    for command in commands:
+        said = subprocess.run([build / "detp", command, "--help", "fields"], check=True, stdout=subprocess.PIPE, text=True).stdout
+        text += f"\n## {command}\n\n```text\n{said}```\n"
+    (pages / "reference" / "answers.md").write_text(text, encoding="utf-8")
+
+
 def reference_of_headers(build: Path, site: Path) -> None:
     """Doxygen's pages of the headers that are installed."""
     installed = build / "site-headers"
@@ -152,6 +162,7 @@ def main() -> int:
     site = Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else build / "site"
     pages = build / "site-pages"
     stage(pages)
+    pages_of_answers(build, pages)
     environment = {**os.environ, "DETP_SITE_VERSION": version(), **python_package(build)}
     shutil.rmtree(site, ignore_errors=True)
     subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-j", "auto", "-c", own, "-d", build / "site-cache", pages, site],

@@ -360,7 +360,7 @@ Command run_command(CLI::App& program) {
   return {
       app,
       [options](const CommonOptions& common, const std::stop_token& stop) { return run_run(*options, common, stop); },
-      true};
+      true, describe_fields(validate::run_fields())};
 }
 
 }  // namespace detp::cli
