@@ -9,7 +9,7 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/photons/light_notes.hpp"
 #include "detp/sim/technique/ranked.hpp"
-#include "detp/validate/calibration/sum_costs.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
 #include "detp/validate/cli/report/answer_rows.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
