@@ -97,7 +97,7 @@ def of_scenes(folder, shares, rays):
 
 
 def of_families(seed):
-    """As family_workloads of validate/regret/regret_workloads.hpp."""
+    """As family_workloads of validate/bench/workload.hpp."""
     for place in range(84):
         family = ["room", "plant", "machine", "terrain", "shells", "details"][place // 14]
         name = f"@{family}:{100 * seed + place % 14 // 7}"

@@ -1,4 +1,4 @@
-"""Discs that no scene has, as validate/regret/regret_workloads.cpp makes them: clusters, a tiny object, a thin sheet, strays, mixed radii."""
+"""Discs that no scene has, as validate/bench/workload.cpp makes them: clusters, a tiny object, a thin sheet, strays, mixed radii."""
 import math
 
 from philox import TESTS, uniform4

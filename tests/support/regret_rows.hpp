@@ -11,7 +11,7 @@ namespace detp::support {
 inline validate::RegretRow regret_row(double regret, bool held_out, double of_baselines = 2, int threads = 1) {
   validate::RegretRow row{.workload = {.scene = held_out ? "sponza" : "@tree",
                                        .discs = "@tree",
-                                       .radius = 0.01,
+                                       .disc_radius = {0.01, true},
                                        .rays = 1000,
                                        .held_out = held_out},
                           .rays = 1200,

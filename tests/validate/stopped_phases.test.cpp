@@ -83,7 +83,7 @@ TEST_SUITE("identity") {
 TEST_SUITE("known answer") {
   TEST_CASE("stopped races report how many workloads were done") {
     const BenchWorkload one{.scene = "@uniform",
-                            .path = "@uniform",
+                            .discs = "@uniform",
                             .field = sim::Field::isotropic,
                             .samples = 500,
                             .disc_radius = Length{0.02},
@@ -109,7 +109,7 @@ TEST_SUITE("statistical") {
   TEST_CASE("experiments and races do bounded work between stop checks") {
     work_of([] { static_cast<void>(all_findings(small({}))); });
     const std::vector<BenchWorkload> workloads{{.scene = "@uniform",
-                                                .path = "@uniform",
+                                                .discs = "@uniform",
                                                 .field = sim::Field::isotropic,
                                                 .samples = 5000,
                                                 .disc_radius = Length{0.02},

@@ -165,6 +165,13 @@ const Columns& candidate_columns() {
   return columns;
 }
 
+std::vector<Column> parameter_columns(const Columns& more) {
+  std::vector<Column> columns;
+  for (const std::string& column : candidate_columns() + more)
+    if (column != "technique" && column != "parameters") columns.push_back({column, "/" + column});
+  return columns;
+}
+
 Columns count_columns(const std::string& prefix) {
   Columns columns;
   for_each_term(Counts<double>{},

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "detp/sim/effects/observe.hpp"
+#include "detp/validate/base/fields.hpp"
 #include "detp/validate/choice/candidate_json.hpp"
 #include "detp/validate/job/job.hpp"
 #include "detp/validate/whole/whole.hpp"
-#include "fields.hpp"
 
 /// Parts that several answers have, in JSON and as columns of tables: rays and discs, candidates, counts, effects, light, the whole wait.
 namespace detp::validate {
@@ -55,6 +55,9 @@ namespace detp::validate {
 
 /// `technique`, `parameters` as text, and one column for each parameter of any technique.
 [[nodiscard]] const Columns& candidate_columns();
+
+/// The columns of the parameters, and `more`, each with its place in their JSON: for a field with parameters.
+[[nodiscard]] std::vector<Column> parameter_columns(const Columns& more = {});
 
 /// One column for each term of Counts, and `tests`, each after the prefix ("predicted_").
 [[nodiscard]] Columns count_columns(const std::string& prefix = "");

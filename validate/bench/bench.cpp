@@ -11,7 +11,6 @@
 
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopped.hpp"
-#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/lists/simd/instruction_sets.hpp"
 #include "detp/sim/lists/simd/tree_search.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
@@ -43,100 +42,68 @@ Contenders contenders(const Workload& workload, std::span<const Technique> named
   return found;
 }
 
-JobRequest request_of(const BenchWorkload& workload, std::uint64_t seed) {
-  JobRequest request;
-  request.scene = workload.path;
-  request.field = workload.field;
-  request.samples = workload.samples;
-  request.disc_radius = workload.disc_radius;
-  request.rays = workload.rays;
-  request.seed = seed;
-  return request;
-}
-
-/// Roughly proportional to the time of the workload.
-double effort(const BenchWorkload& workload) { return workload.rays + 3e4; }
-
 constexpr double share_of_job = 0.1;  ///< rough share of a workload's time for making scene and rays
 
 class Benchmark {
  public:
   Benchmark(std::span<const BenchWorkload> workloads, const BenchOptions& options)
       : workloads_(workloads), options_(options) {
-    result_.workloads = workloads.size();
     if (!options.instruction_set.empty()) only_.emplace(options.instruction_set);
     for (const int threads : options.threads)
       peers_.try_emplace(threads, std::make_unique<EmbreePeer>(threads, options.instruction_set));
   }
 
-  BenchResult run_all() {
-    for (std::size_t i = 0; i < workloads_.size() && !options_.stop.stop_requested(); ++i) {
-      if (i == 0 || !same_but_rays(workloads_[i - 1], workloads_[i])) hits_per_ray_ = 0;
-      progress_ = progress_of(i);
-      const std::size_t skipped = result_.skipped.size();
-      try {
-        if (run(workloads_[i])) ++result_.done;
-        if (result_.skipped.size() == skipped) effort_done_ += effort(workloads_[i]);
-      } catch (const sim::Stopped&) {  // stopped while making rays
-      }
-    }
-    result_.stopped = result_.done < workloads_.size();
-    return std::move(result_);
+  BenchResult run_all() && {
+    BenchResult result;
+    static_cast<SetProgress&>(result) = run_each(
+        workloads_,
+        [&](std::size_t i, const sim::ReportPhase& progress) {
+          if (i == 0 || !same_but_rays(workloads_[i - 1], workloads_[i])) hits_per_ray_ = 0;
+          return run(workloads_[i], progress);
+        },
+        options_.stop, options_.progress);
+    result.entries = std::move(entries_);
+    return result;
   }
 
  private:
-  /// The progress callback for workload number `place`. Expects that each remaining workload takes a time proportional
-  /// to its effort(), at the speed so far.
-  [[nodiscard]] sim::ReportPhase progress_of(std::size_t place) const {
-    const double done = watch_.seconds();
-    const double speed = effort_done_ > 0 ? done / effort_done_ : 1;
-    double later = 0;
-    for (std::size_t i = place; i < workloads_.size(); ++i) later += speed * effort(workloads_[i]);
-    const double whole = effort_done_ > 0 ? done + later : later;
-    const double before = effort_done_ > 0 ? done : 0;
-    return sim::part_of(options_.progress, before / whole, (before + speed * effort(workloads_[place])) / whole);
+  /// The progress of one part of a workload, such as "@tree 10000 rays, races".
+  [[nodiscard]] static sim::ReportPhase part(const sim::ReportPhase& progress, const BenchWorkload& workload,
+                                             std::string_view what, double from, double to) {
+    return titled(sim::part_of(progress, from, to),
+                  fmt::format("{} {:g} rays, {}", workload.scene, workload.rays, what));
   }
 
-  /// The progress callback for one part of a workload, such as "@tree 10000 rays, races".
-  [[nodiscard]] sim::ReportPhase part(const BenchWorkload& workload, std::string what, double from, double to) const {
-    if (!progress_) return {};
-    return [part = sim::part_of(progress_, from, to),
-            title = fmt::format("{} {:g} rays, {}", workload.scene, workload.rays, what)](sim::Phase phase) {
-      phase.what = fmt::format("{}: {}", title, phase.what);
-      part(phase);
-    };
+  /// Why the workload is skipped if more than most_hits hits are expected; else nothing. `expected` comes from a run with fewer rays, or
+  /// from the model.
+  [[nodiscard]] std::string too_many_hits(double expected) const {
+    return expected <= options_.most_hits
+               ? ""
+               : fmt::format("{:.1e} hits expected, more than {:g}", expected, options_.most_hits);
   }
 
-  /// If more than most_hits hits are expected, notes that the workload is skipped, and returns true. `expected` comes
-  /// from a run with fewer rays, or from the model.
-  bool too_many_hits(const BenchWorkload& workload, double expected) {
-    if (expected <= options_.most_hits) return false;
-    result_.skipped.push_back(
-        {workload, fmt::format("{:.1e} hits expected, more than {:g}", expected, options_.most_hits)});
-    return true;
-  }
-
-  /// Returns false if a stop request ended the races.
-  bool run(const BenchWorkload& workload) {
-    if (too_many_hits(workload, hits_per_ray_ * workload.rays)) return true;
-    const Job job =
-        make_job(request_of(workload, options_.seed), options_.stop, part(workload, "making rays", 0, share_of_job));
+  std::string run(const BenchWorkload& workload, const sim::ReportPhase& progress) {
+    if (std::string why = too_many_hits(hits_per_ray_ * workload.rays); !why.empty()) return why;
+    const Job job = make_bench_job(workload, options_.seed, options_.stop,
+                                   part(progress, workload, "making rays", 0, share_of_job));
     const Contenders ours = contenders(job.workload(), options_.techniques, options_.hopeless);
-    if (ours.candidates.empty()) {
-      result_.skipped.push_back({workload, "none of the techniques named fits in memory on it"});
-      return true;
-    }
-    if (hits_per_ray_ == 0 && too_many_hits(workload, ours.hits)) {
-      hits_per_ray_ = ours.hits / workload.rays;
-      return true;
-    }
-    const auto races = part(workload, "races", share_of_job, 1);
-    if (races) races({"right hits", 0, 0});
-    const auto right = right_hits(job, ours.candidates.front(), options_.checkable, options_.stop);
-    if (!right) return false;
-    const auto sum = std::accumulate(right->hits.begin(), right->hits.end(), std::uint64_t{0});
+    if (ours.candidates.empty()) return "none of the techniques named fits in memory on it";
+    if (hits_per_ray_ == 0)
+      if (std::string why = too_many_hits(ours.hits); !why.empty()) {
+        hits_per_ray_ = ours.hits / workload.rays;
+        return why;
+      }
+    run_races(workload, job, ours.candidates, part(progress, workload, "races", share_of_job, 1));
+    return "";
+  }
+
+  void run_races(const BenchWorkload& workload, const Job& job, const std::vector<Candidate>& ours,
+                 const sim::ReportPhase& progress) {
+    if (progress) progress({"right hits", 0, 0});
+    const RightHits right = right_hits(job, ours.front(), options_.checkable, options_.stop);
+    const auto sum = std::accumulate(right.hits.begin(), right.hits.end(), std::uint64_t{0});
     hits_per_ray_ = static_cast<double>(sum) / workload.rays;
-    std::vector<Competitor> competitors(ours.candidates.begin(), ours.candidates.end());
+    std::vector<Competitor> competitors(ours.begin(), ours.end());
     competitors.insert(competitors.end(), options_.embree_modes.begin(), options_.embree_modes.end());
     if (options_.costs && sim::PilotedDiscs::can_pilot(job.problem())) competitors.emplace_back(OwnChoice{});
     double before = 0;
@@ -147,27 +114,23 @@ class Benchmark {
                             .threads = threads,
                             .costs = options_.costs.value_or(CostTable{}),
                             .stop = options_.stop,
-                            .progress = sim::part_of(races, before, after)};
+                            .progress = sim::part_of(progress, before, after)};
       before = after;
-      Race found = race(job, *right, *peers_.at(threads), competitors, how);
+      Race found = race(job, right, *peers_.at(threads), competitors, how);
       const bool complete = found.complete;
       if (!found.results.empty())
-        result_.entries.push_back({workload, job.given.samples, job.given.disc_radius, threads,
-                                   sim::stream::instruction_set(), right->judge, std::move(found)});
-      if (!complete) return false;
+        entries_.push_back({workload, job.given.samples, job.given.disc_radius, threads, sim::stream::instruction_set(),
+                            right.judge, std::move(found)});
+      if (!complete) throw sim::Stopped("stopped during a race");
     }
-    return true;
   }
 
   std::span<const BenchWorkload> workloads_;
   const BenchOptions& options_;
   std::optional<sim::stream::OnlyInstructionSet> only_;
   std::map<int, std::unique_ptr<EmbreePeer>> peers_;
-  BenchResult result_;
+  std::vector<BenchEntry> entries_;
   double hits_per_ray_ = 0;
-  sim::Stopwatch watch_;
-  double effort_done_ = 0;     ///< sum of effort() over the workloads that were run
-  sim::ReportPhase progress_;  ///< progress callback of the current workload
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "detp/sim/base/phase.hpp"
 #include "race.hpp"
-#include "workload.hpp"
+#include "workload_sets.hpp"
 
 /// Benchmarks our techniques and Embree over a set of workloads.
 namespace detp::validate {
@@ -56,17 +56,8 @@ struct BenchEntry {
   [[nodiscard]] double embree_over(const CompetitorResult* ours) const;
 };
 
-struct BenchSkip {
-  BenchWorkload workload;
-  std::string why;
-};
-
-struct BenchResult {
+struct BenchResult : SetProgress {
   std::vector<BenchEntry> entries;
-  std::vector<BenchSkip> skipped;
-  std::size_t workloads = 0;  ///< number of requested workloads
-  std::size_t done = 0;       ///< number of workloads raced to the end or skipped
-  bool stopped = false;       ///< a stop request came before the end
 };
 
 /// Runs a race on each workload. Throws as make_job does for a wrong scene or number, and std::invalid_argument for an instruction set

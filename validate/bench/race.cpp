@@ -8,8 +8,8 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/choice/pilot.hpp"
-#include "detp/validate/measure/in_turns.hpp"
-#include "detp/validate/measure/own_time.hpp"
+#include "detp/validate/measure/rounds.hpp"
+#include "detp/validate/measure/run_time.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
 namespace detp::validate {
@@ -24,18 +24,18 @@ class RaceRunner {
 
   Race run_all(const std::vector<Competitor>& competitors) {
     for (const Competitor& competitor : competitors) race_.results.push_back({competitor});
-    finalist_.assign(competitors.size(), false);
-    const auto begin = [&](int round) {
-      if (round == 1) {
-        choose_finalists(is_own_technique);
-        choose_finalists(is_embree);
-      }
-      return round < least_rounds || watch_.seconds() < options_.most_seconds;
-    };
-    in_turns(competitors.size(), options_.repeats, begin, [&](std::size_t i, int round) {
-      CompetitorResult& result = race_.results[i];
-      return (round > 0 && !finalist_[i] && !std::holds_alternative<OwnChoice>(result.competitor)) || run(result);
-    });
+    TimesOfAll times = timed_rounds(
+        competitors.size(),
+        {.rounds = options_.repeats,
+         .rounds_of_all = 1,
+         .least_rounds = least_rounds,
+         .most_seconds = options_.most_seconds},
+        [&](const TimesOfAll& so_far) { return finalists(so_far); },
+        [&](std::size_t i, std::span<const double> so_far) {
+          report(race_.results[i].competitor, so_far);
+          return run(race_.results[i]);
+        });
+    for (std::size_t i = 0; i < times.size(); ++i) race_.results[i].seconds = std::move(times[i]);
     std::erase_if(race_.results, [](const CompetitorResult& result) { return result.seconds.empty(); });
     race_.complete = race_.results.size() == competitors.size();
     return std::move(race_);
@@ -44,20 +44,19 @@ class RaceRunner {
  private:
   /// Reports the next run. In the first round it is expected to take as long as the mean of the runs before it, later
   /// as long as the competitor's first run.
-  void report(const CompetitorResult& next) {
+  void report(const Competitor& next, std::span<const double> times) {
     if (!options_.progress) return;
     constexpr double first_round = 0.8;  // expected share of the time of the race
-    const bool first = next.seconds.empty();
-    const double step = first ? first_round / static_cast<double>(race_.results.size())
-                              : (1 - first_round) / (2.0 * options_.finalists * std::max(1, options_.repeats - 1));
+    const double step = times.empty()
+                            ? first_round / static_cast<double>(race_.results.size())
+                            : (1 - first_round) / (2.0 * options_.finalists * std::max(1, options_.repeats - 1));
     const double before = std::exchange(share_, std::min(1.0, share_ + step));
-    options_.progress({technique_of(next.competitor), before, share_, 0,
-                       first ? watch_.seconds() / std::max(1.0, before / step) : next.seconds.front()});
+    options_.progress({technique_of(next), before, share_, 0,
+                       times.empty() ? watch_.seconds() / std::max(1.0, before / step) : times.front()});
   }
 
-  /// Returns false if a stop request ended the run.
-  bool run(CompetitorResult& result) {
-    report(result);
+  /// The seconds of a run; nullopt if a stop request ended it.
+  std::optional<double> run(CompetitorResult& result) const {
     const OwnTime time(options_.threads);
     if (const auto* mode = std::get_if<EmbreeMode>(&result.competitor)) {
       const PeerOutcome outcome = embree_.run(job_.rays, job_.discs, *mode, options_.stop);
@@ -79,27 +78,36 @@ class RaceRunner {
       const sim::Outcome outcome = sim::run(problem, *build_choice(choice, problem, how), how);
       return record_run(result, outcome, time.seconds());
     } catch (const sim::Stopped&) {
-      return false;
+      return std::nullopt;
     }
   }
 
   template <class Outcome>
-  bool record_run(CompetitorResult& result, const Outcome& outcome, double seconds) const {
-    if (outcome.stopped) return false;
-    result.seconds.push_back(seconds);
+  std::optional<double> record_run(CompetitorResult& result, const Outcome& outcome, double seconds) const {
+    if (outcome.stopped) return std::nullopt;
     result.hits = std::accumulate(outcome.hits.begin(), outcome.hits.end(), std::uint64_t{0});
     result.wrong_hits = std::max(result.wrong_hits, right_.wrong_hits(outcome.hits));
-    return true;
+    return seconds;
   }
 
-  /// Those of a side that were the fastest in the first round run in all later ones.
-  void choose_finalists(bool (*of_side)(const Competitor&)) {
-    std::vector<std::size_t> side;
-    for (std::size_t i = 0; i < race_.results.size(); ++i)
-      if (of_side(race_.results[i].competitor) && !race_.results[i].seconds.empty()) side.push_back(i);
-    std::ranges::stable_sort(side, {}, [&](std::size_t i) { return race_.results[i].seconds.front(); });
-    side.resize(std::min(side.size(), static_cast<std::size_t>(options_.finalists)));
-    for (const std::size_t i : side) finalist_[i] = true;
+  /// Those of each side that were the fastest in the first round, and our choice.
+  [[nodiscard]] std::vector<bool> finalists(const TimesOfAll& times) const {
+    std::vector<bool> chosen(times.size());
+    std::vector<std::size_t> ours;
+    std::vector<std::size_t> embree;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const Competitor& competitor = race_.results[i].competitor;
+      if (std::holds_alternative<OwnChoice>(competitor))
+        chosen[i] = true;
+      else
+        (is_embree(competitor) ? embree : ours).push_back(i);
+    }
+    for (std::vector<std::size_t>* side : {&ours, &embree}) {
+      std::ranges::stable_sort(*side, {}, [&](std::size_t i) { return times[i].front(); });
+      side->resize(std::min(side->size(), static_cast<std::size_t>(options_.finalists)));
+      for (const std::size_t i : *side) chosen[i] = true;
+    }
+    return chosen;
   }
 
   const Job& job_;
@@ -108,7 +116,6 @@ class RaceRunner {
   const RaceOptions& options_;
   sim::Stopwatch watch_;
   double share_ = 0;  ///< share of the time that is done after the current run
-  std::vector<bool> finalist_;
   Race race_;
 };
 
@@ -120,13 +127,12 @@ std::uint64_t RightHits::wrong_hits(std::span<const std::uint64_t> others) const
   return sum;
 }
 
-std::optional<RightHits> right_hits(const Job& job, const Candidate& exact, double checkable,
-                                    const std::stop_token& stop) {
+RightHits right_hits(const Job& job, const Candidate& exact, double checkable, const std::stop_token& stop) {
   const double pairs = static_cast<double>(job.rays.size()) * static_cast<double>(job.discs.size());
   const Candidate judge = pairs <= checkable ? Candidate{Technique::brute_force, BruteForceParameters{}} : exact;
   sim::Outcome outcome = sim::run(job.problem(), judge, {.count = false, .stop = stop, .threads = 0});
-  if (outcome.stopped) return std::nullopt;
-  return RightHits{judge.technique, std::move(outcome.hits)};
+  if (outcome.stopped) throw sim::Stopped("stopped while the right hits were searched");
+  return {judge.technique, std::move(outcome.hits)};
 }
 
 std::string technique_of(const Competitor& competitor) {

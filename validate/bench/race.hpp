@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -25,10 +24,10 @@ struct RightHits {
   [[nodiscard]] std::uint64_t wrong_hits(std::span<const std::uint64_t> others) const;
 };
 
-/// The hits of brute force, or of the candidate `exact` if rays × discs exceeds `checkable`. Returns nothing if a stop
-/// was requested.
-[[nodiscard]] std::optional<RightHits> right_hits(const Job& job, const Candidate& exact, double checkable,
-                                                  const std::stop_token& stop = {});
+/// The hits of brute force, or of the candidate `exact` if rays × discs exceeds `checkable`. Throws sim::Stopped
+/// on a stop request.
+[[nodiscard]] RightHits right_hits(const Job& job, const Candidate& exact, double checkable,
+                                   const std::stop_token& stop = {});
 
 /// What we choose ourselves, by a pilot, in each run anew. Choosing is part of the run.
 struct OwnChoice {};

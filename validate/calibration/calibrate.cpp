@@ -3,19 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
+#include <deque>
 #include <utility>
 #include <vector>
 
 #include "built_in_costs.hpp"
 #include "detp/sim/base/floating_point.hpp"
-#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "detp/sim/technique/technique.hpp"
-#include "detp/validate/measure/in_turns.hpp"
-#include "detp/validate/measure/stop_after.hpp"
+#include "detp/validate/measure/run_time.hpp"
 #include "detp/validate/statistics/statistics.hpp"
-#include "fit_all.hpp"
 #include "timed_workloads.hpp"
 
 namespace detp::validate {
@@ -26,6 +22,8 @@ constexpr double longest_of_large = 0.2;  ///< the same with many discs or many 
 constexpr double share_of_first = 0.5;    ///< of the time, for the first round over the workloads
 constexpr int further_rounds = 7;
 constexpr double long_run = 0.006;  ///< seconds; a shorter run is repeated once in a round, to find warm caches
+constexpr std::size_t least_on_one_thread = 10;  ///< runs for a fit
+constexpr std::size_t least_on_more = 5;
 
 class Calibrator {
  public:
@@ -41,48 +39,39 @@ class Calibrator {
       report();
       add(all[i], i);
     }
-    const auto begin = [](int) { return true; };
-    in_turns(timed_.size(), further_rounds, begin, [&](std::size_t i, int round) {
+    in_turns(timed_.size(), further_rounds, [&](std::size_t i, int round) {
       if (is_over(round)) return false;
       report();
-      if (!timed_[i].agrees()) time(timed_[i]);
+      if (!agrees(timed_[i])) time(timed_[i]);
       return true;
     });
-    result_.workloads = workloads_.size();
+    result_.workloads = scenes_.size();
     result_.stopped = options_.stop.stop_requested();
     if (wall_seconds_ > 0) result_.processor_share = processor_seconds_ / wall_seconds_;
     const double usual = usual_over_shortest();
-    for (const Timed& one : timed_) store(one, usual);
-    fit_all(runs_, result_);
+    for (const TimedCandidate& one : timed_) store(one, usual);
+    fit_all();
     set_touch_cost(result_);
     result_.seconds = watch_.seconds();
     return std::move(result_);
   }
 
  private:
-  struct Workload {
-    std::size_t place;
-    std::vector<sim::Disc> discs;
-    std::vector<sim::Ray> rays;
-    sim::Problem problem = sim::make_problem(rays, discs);  // borrows both
-    CheckSeconds checks = time_checks(problem, rays, discs);
+  /// The runs of one technique by one engine.
+  struct TechniqueRuns {
+    std::vector<TimedRun> on_one_thread;
+    std::vector<ThreadedRun> on_more;
   };
 
-  /// A candidate of a workload, and its times so far on each number of threads.
-  struct Timed {
-    const Workload* workload;
-    Candidate candidate;
-    Engine engine;
-    Counts<double> counts;
-    std::vector<int> numbers = {1};
-    std::vector<RoundTimes> times = {};
+  [[nodiscard]] TechniqueRuns& runs_of(Engine engine, Technique technique) {
+    return runs_[static_cast<std::size_t>(engine)][static_cast<std::size_t>(technique)];
+  }
 
-    [[nodiscard]] bool agrees() const {
-      constexpr std::size_t enough = 3;  // rounds, for a median
-      return std::all_of(times.begin(), times.end(),
-                         [](const RoundTimes& one) { return one.rounds() >= enough && one.agree(); });
-    }
-  };
+  [[nodiscard]] static bool agrees(const TimedCandidate& timed) {
+    constexpr std::size_t enough = 3;  // rounds, for a median
+    return std::ranges::all_of(timed.times,
+                               [](const RoundTimes& one) { return one.rounds() >= enough && one.agree(); });
+  }
 
   /// Not before the first further round, which tells whether a time was disturbed.
   [[nodiscard]] bool is_over(int round) const {
@@ -92,34 +81,32 @@ class Calibrator {
   void report() const {
     if (!options_.progress) return;
     const double seconds = watch_.seconds();
-    options_.progress({fmt::format("{} workloads", workloads_.size()), std::min(1.0, seconds / options_.seconds), 1, 0,
+    options_.progress({fmt::format("{} workloads", scenes_.size()), std::min(1.0, seconds / options_.seconds), 1, 0,
                        options_.seconds - seconds});
   }
 
   /// Makes a workload, and times its candidates once.
   void add(const TimedWorkload& workload, std::size_t place) {
-    std::vector<sim::Disc> discs = discs_of(workload, place);
-    std::vector<sim::Ray> rays = rays_of(workload, discs, place);
-    const auto& made = workloads_.emplace_back(new Workload{place, std::move(discs), std::move(rays)});
+    const TimedScene& scene = scenes_.emplace_back(workload, place);
     for (const Candidate& candidate : timed_candidates(workload, place))
       for (const Engine engine : {Engine::simd, Engine::plain}) {
         if (options_.stop.stop_requested()) return;
         if (engine == Engine::plain && (!record_of(candidate.technique).simd || is_large(workload))) continue;
-        if (!is_hopeless(workload, candidate.technique, engine)) count(*made, workload, candidate, engine);
+        if (!is_hopeless(workload, candidate.technique, engine)) count(scene, workload, candidate, engine);
       }
   }
 
   /// Counts the candidate's operations, and times it, unless it takes too long.
-  void count(const Workload& made, const TimedWorkload& workload, const Candidate& candidate, Engine engine) {
+  void count(const TimedScene& scene, const TimedWorkload& workload, const Candidate& candidate, Engine engine) {
     const double longest = is_large(workload) ? longest_of_large : longest_run;
     const StopAfter limit(options_.stop, longest);
-    const sim::Outcome counted = sim::run(made.problem, candidate, {.engine = engine, .stop = limit.token()});
+    const sim::Outcome counted = sim::run(scene.problem, candidate, {.engine = engine, .stop = limit.token()});
     if (counted.stopped) too_long_.push_back({candidate.technique, engine, workload});
     if (counted.stopped || counted.seconds.total() > longest) return;
-    Timed one{&made, candidate, engine, as_expected(counted.counts)};
-    if (engine == Engine::simd && made.place % 2 == 0 && is_divided(one.counts, candidate.technique, engine))
-      one.numbers = numbers_;
-    one.times.resize(one.numbers.size());
+    TimedCandidate one{&scene, candidate, engine, as_expected(counted.counts)};
+    if (engine == Engine::simd && scene.place % 2 == 0 && is_divided(one.counts, candidate.technique, engine))
+      one.threads = numbers_;
+    one.times.resize(one.threads.size());
     time(timed_.emplace_back(std::move(one)));
   }
 
@@ -138,27 +125,21 @@ class Calibrator {
   }
 
   /// One round of runs of the candidate, which alternate between the numbers of threads.
-  void time(Timed& one) {
+  void time(TimedCandidate& one) {
     for (RoundTimes& times : one.times) times.begin_round();
     double timed = 0;
     for (int i = 0; i < 2 && timed < long_run; ++i) {
-      for (std::size_t j = 0; j < one.numbers.size(); ++j) {
-        const sim::ProcessorStopwatch processor;
-        const sim::Outcome outcome =
-            sim::run(one.workload->problem, one.candidate,
-                     {.count = false, .engine = one.engine, .stop = options_.stop, .threads = one.numbers[j]});
-        if (outcome.stopped) return;
-        const double wall = outcome.seconds.total();
-        const double preparing = outcome.seconds.order + outcome.seconds.build;
-        if (j > 0) {
-          one.times[j].add(wall, preparing);
-          continue;
-        }
-        const double own = std::min(processor.seconds(), wall);  // without the time that other programs took
-        one.times[j].add(own, std::min(preparing, own));
+      for (std::size_t j = 0; j < one.threads.size(); ++j) {
+        const RunTime run =
+            time_run(one.scene->problem, one.candidate,
+                     {.count = false, .engine = one.engine, .stop = options_.stop, .threads = one.threads[j]});
+        if (run.outcome.stopped) return;
+        one.times[j].add(run.seconds, run.preparing);
+        if (j > 0) continue;
+        const double wall = run.outcome.seconds.total();
         timed += wall;
         wall_seconds_ += wall;
-        processor_seconds_ += own;
+        processor_seconds_ += run.seconds;
       }
     }
   }
@@ -167,25 +148,79 @@ class Calibrator {
   [[nodiscard]] double usual_over_shortest() const {
     constexpr double most = 1.1;
     std::vector<double> ratios;
-    for (const Timed& one : timed_)
-      if (one.times.front().timed()) ratios.push_back(one.times.front().usual_over_shortest());
+    for (const TimedCandidate& one : timed_)
+      if (const RoundTimes& times = one.times.front(); times.timed())
+        ratios.push_back(times.usual_seconds() / times.seconds());
     return ratios.empty() ? 1 : std::min(most, median(std::move(ratios)));
   }
 
-  void store(const Timed& timed, double usual) {
+  void store(const TimedCandidate& timed, double usual) {
     const RoundTimes& one = timed.times.front();
-    const std::size_t place = timed.workload->place;
-    const CheckSeconds& checks = timed.workload->checks;
+    const TimedScene& scene = *timed.scene;
     if (!one.timed()) return;
-    TechniqueRuns& runs = runs_.of(timed.engine, timed.candidate.technique);
-    runs.on_one_thread.push_back({place, timed.counts, usual * one.seconds() + checks.discs + checks.rays,
-                                  usual * one.preparing() + checks.discs});
-    for (std::size_t i = 1; i < timed.numbers.size(); ++i)
+    TechniqueRuns& runs = runs_of(timed.engine, timed.candidate.technique);
+    runs.on_one_thread.push_back({scene.place, timed.counts,
+                                  usual * one.seconds() + scene.checking_discs + scene.checking_rays,
+                                  usual * one.preparing() + scene.checking_discs});
+    for (std::size_t i = 1; i < timed.threads.size(); ++i)
       if (const RoundTimes& more = timed.times[i]; more.timed() && more.agree())
-        runs.on_more.push_back(
-            {place, timed.counts, timed.numbers[i], one.seconds(), one.preparing(), more.seconds(), more.preparing()});
+        runs.on_more.push_back({scene.place, timed.counts, timed.threads[i], one.seconds(), one.preparing(),
+                                more.seconds(), more.preparing()});
   }
 
+  /// Sets the costs, their fits and errors. Techniques with too few runs get the built-in costs, and the error of all.
+  void fit_all() {
+    for (const Engine engine : {Engine::plain, Engine::simd}) {
+      result_.of(engine).costs = built_in_unit_costs(engine);
+      for (const Technique technique : all_techniques) {
+        fit_costs_of(technique, engine);
+        fit_threads_of(technique, engine);
+      }
+    }
+    for (const Technique technique : all_techniques)
+      if (!record_of(technique).simd) {  // both engines are the same
+        result_.plain.costs[technique] = result_.simd.costs[technique];
+        result_.plain.costs.threads_of(technique) = result_.simd.costs.threads_of(technique);
+      }
+    for (const Engine engine : {Engine::plain, Engine::simd})  // always plain
+      result_.of(engine).costs[Technique::sphere_cache_published] = result_.plain.costs[Technique::sphere_cache];
+    if (!errors_.empty()) result_.left_out_median_error = median(errors_);
+    if (!thread_errors_.empty()) result_.threads_left_out_median_error = median(thread_errors_);
+    set_relative_errors();
+  }
+
+  void fit_costs_of(Technique technique, Engine engine) {
+    const std::vector<TimedRun>& runs = runs_of(engine, technique).on_one_thread;
+    if (runs.size() < least_on_one_thread) return;
+    EngineCalibration& result = result_.of(engine);
+    const CostFit& fit = result.fits[static_cast<std::size_t>(technique)].emplace(
+        fit_costs(runs, technique, built_in_unit_costs(engine)[technique]));
+    result.costs[technique] = fit.costs;
+    errors_.insert(errors_.end(), fit.left_out_errors.begin(), fit.left_out_errors.end());
+  }
+
+  void fit_threads_of(Technique technique, Engine engine) {
+    const std::vector<ThreadedRun>& runs = runs_of(engine, technique).on_more;
+    if (runs.size() < least_on_more) return;
+    const ThreadFit fit = fit_threads(runs, technique, engine, built_in_unit_costs(engine).threads_of(technique));
+    if (fit.left_out_errors.empty()) return;  // too few workloads
+    EngineCalibration& result = result_.of(engine);
+    result.thread_fits[static_cast<std::size_t>(technique)] = fit;
+    result.costs.threads_of(technique) = fit.costs;
+    thread_errors_.insert(thread_errors_.end(), fit.left_out_errors.begin(), fit.left_out_errors.end());
+  }
+
+  void set_relative_errors() {
+    for (const Engine engine : {Engine::plain, Engine::simd})
+      for (const Technique technique : all_techniques) {
+        const Engine own = record_of(technique).simd ? engine : Engine::simd;
+        const auto& fit = result_.of(own).fits[static_cast<std::size_t>(technique)];
+        const bool known = fit && !fit->left_out_errors.empty();
+        const CalibrationQuality quality{known ? median(fit->left_out_errors) : result_.left_out_median_error,
+                                         result_.processor_share};
+        result_.of(engine).costs.relative_error_of(technique) = quality.relative_error();
+      }
+  }
   struct TooLong {
     Technique technique;
     Engine engine;
@@ -196,9 +231,11 @@ class Calibrator {
   std::vector<int> numbers_;  ///< of threads
   sim::Stopwatch watch_;
   Calibration result_;
-  std::vector<std::unique_ptr<const Workload>> workloads_;
-  std::vector<Timed> timed_;
-  TimedRuns runs_;
+  std::deque<TimedScene> scenes_;
+  std::vector<TimedCandidate> timed_;
+  std::array<std::array<TechniqueRuns, all_techniques.size()>, 2> runs_;  ///< by engine
+  std::vector<double> errors_;                                            ///< of left-out runs on one thread
+  std::vector<double> thread_errors_;
   double wall_seconds_ = 0;       ///< of runs on one thread
   double processor_seconds_ = 0;  ///< of these
   std::vector<TooLong> too_long_;

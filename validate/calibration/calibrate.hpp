@@ -1,13 +1,9 @@
 #pragma once
 
-#include <array>
-#include <optional>
 #include <stop_token>
 
-#include "calibration_quality.hpp"
-#include "cost_fit.hpp"
+#include "calibration.hpp"
 #include "detp/sim/base/phase.hpp"
-#include "thread_fit.hpp"
 
 /// Measures the unit costs of this machine.
 namespace detp::validate {
@@ -17,26 +13,6 @@ struct CalibrationOptions {
   int threads = 0;     ///< most threads of a run; 0: all cores; 1: costs of threads are not measured
   std::stop_token stop = {};
   sim::ReportPhase progress = {};
-};
-
-/// The costs of one engine. Fits are in the order of Technique; empty for techniques that are not exact, for those with
-/// too few runs and, of the plain engine, for those whose engines are the same.
-struct EngineCalibration {
-  CostTable costs;  ///< the fitted ones; the built-in ones of techniques without a fit
-  std::array<std::optional<CostFit>, all_techniques.size()> fits = {};
-  std::array<std::optional<ThreadFit>, all_techniques.size()> thread_fits = {};
-};
-
-struct Calibration : CalibrationQuality {
-  EngineCalibration plain = {};
-  EngineCalibration simd = {};
-  double threads_left_out_median_error = 0;  ///< of all runs on more threads, from their times on one; 0 without any
-  std::size_t workloads = 0;                 ///< measured
-  double seconds = 0;                        ///< that the calibration took
-  bool stopped = false;  ///< a stop request came: the costs are fitted to the workloads measured until then
-
-  [[nodiscard]] EngineCalibration& of(Engine engine) { return engine == Engine::plain ? plain : simd; }
-  [[nodiscard]] const EngineCalibration& of(Engine engine) const { return engine == Engine::plain ? plain : simd; }
 };
 
 /// Times all exact techniques, with several parameters each, on samples in a cube and on its faces: 10² … 10⁵ discs and rays, from

@@ -6,21 +6,18 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
 
 #include "built_in_costs.hpp"
-#include "calibration_key.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/input_file.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/validate/base/digest.hpp"
+#include "detp/validate/base/json.hpp"
 
 namespace detp::validate {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::string_view schema = "detp.calibrate";
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
@@ -86,7 +83,7 @@ CostTable costs_of(const Json& json, Engine engine, const CalibrationQuality& qu
   return costs;
 }
 
-Json to_json(const CostTable& costs) {
+Json costs_json(const CostTable& costs) {
   Json json;
   for (const Technique technique : all_techniques)
     if (record_of(technique).exact || technique == Technique::sphere_cache_published)
@@ -163,21 +160,24 @@ void write_cache_file(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-std::string calibration_text(const Calibration& calibration) {
-  Json json{
-      {"schema", {{"name", schema}, {"version", 1}}},
-      {"key", to_json(this_machine())},
-      {"date", today()},
-      {"left_out_median_error", calibration.left_out_median_error},
-      {"processor_share", calibration.processor_share},
-      {"relative_errors",
-       {{"simd", errors_json(calibration.simd.costs)}, {"plain", errors_json(calibration.plain.costs)}}},
-      {"costs", {{"simd", to_json(calibration.simd.costs)}, {"plain", to_json(calibration.plain.costs)}}},
-      {"threads", {{"simd", threads_json(calibration.simd.costs)}, {"plain", threads_json(calibration.plain.costs)}}}};
+Json calibration_json(const Calibration& calibration) {
+  const auto of_engines = [&](Json (*json_of_costs)(const CostTable&)) {
+    return Json{{"simd", json_of_costs(calibration.simd.costs)}, {"plain", json_of_costs(calibration.plain.costs)}};
+  };
+  Json json{{"schema", {{"name", schema}, {"version", 1}}},
+            {"key", to_json(this_machine())},
+            {"date", today()},
+            {"left_out_median_error", calibration.left_out_median_error},
+            {"processor_share", calibration.processor_share},
+            {"relative_errors", of_engines(errors_json)},
+            {"costs", of_engines(costs_json)},
+            {"threads", of_engines(threads_json)}};
   json["checksum"] = checksum_of(json);
   if (calibration.probe) json["probe"] = true;
-  return json.dump(2) + "\n";
+  return json;
 }
+
+std::string calibration_text(const Calibration& calibration) { return calibration_json(calibration).dump(2) + "\n"; }
 
 std::string default_calibration_path() { return cache_path("calibration.json"); }
 std::string probe_path() { return cache_path("probe.json"); }

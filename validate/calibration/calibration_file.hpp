@@ -4,7 +4,6 @@
 #include <string>
 
 #include "calibrate.hpp"
-#include "calibration_key.hpp"
 
 /// Calibrations on disc.
 namespace detp::validate {
@@ -25,7 +24,8 @@ struct StoredCalibration : CalibrationQuality {
 /// detp/probe.json beside it.
 [[nodiscard]] std::string probe_path();
 
-/// The content of a calibration's file: JSON with the key of this machine and today's date.
+/// The content of a calibration's file: the key of this machine, today's date, the costs and their errors, a checksum.
+[[nodiscard]] nlohmann::ordered_json calibration_json(const Calibration& calibration);
 [[nodiscard]] std::string calibration_text(const Calibration& calibration);
 
 /// Writes the file, and its folder if necessary. Throws sim::FileError.

@@ -147,11 +147,11 @@ const UnitCostTerm* smallest_term(std::span<const TimedRun> runs, const Terms& t
                            [&](const auto* a, const auto* b) { return share(a) < share(b); });
 }
 
-double median_error(std::span<const TimedRun> runs, const UnitCosts& costs, Technique technique) {
+std::vector<double> relative_errors(std::span<const TimedRun> runs, const UnitCosts& costs, Technique technique) {
   std::vector<double> errors;
   for (const TimedRun& run : runs)
     errors.push_back(std::abs(price(run.counts, costs, technique).total() / run.seconds - 1));
-  return median(std::move(errors));
+  return errors;
 }
 
 /// The fit of the terms that the runs can tell apart; adds the others to `dropped`.
@@ -171,22 +171,6 @@ UnitCosts fit_separable(std::span<const TimedRun> runs, Terms terms, const UnitC
   }
 }
 
-std::vector<double> left_out_errors(std::span<const TimedRun> runs, const Terms& terms, const UnitCosts& expected,
-                                    Technique technique) {
-  constexpr std::size_t parts = 5;
-  std::vector<double> errors;
-  for (std::size_t part = 0; part < parts; ++part) {
-    std::vector<TimedRun> fitted;
-    std::vector<TimedRun> left_out;
-    for (const TimedRun& run : runs) (run.workload % parts == part ? left_out : fitted).push_back(run);
-    if (fitted.empty()) continue;
-    const UnitCosts costs = fit(fitted, terms, expected);
-    for (const TimedRun& run : left_out)
-      errors.push_back(std::abs(price(run.counts, costs, technique).total() / run.seconds - 1));
-  }
-  return errors;
-}
-
 }  // namespace
 
 CostFit fit_costs(std::span<const TimedRun> runs, Technique technique, const std::optional<UnitCosts>& usual) {
@@ -201,8 +185,11 @@ CostFit fit_costs(std::span<const TimedRun> runs, Technique technique, const std
   result.costs = fit_separable(runs, terms, expected, result);
   for (const UnitCostTerm& term : unit_cost_terms)
     if (!occurs(term, runs)) result.costs.*term.cost = expected.*term.cost;
-  result.median_error = median_error(runs, result.costs, technique);
-  result.left_out_errors = left_out_errors(runs, positive_terms(terms, result.costs), expected, technique);
+  result.median_error = median(relative_errors(runs, result.costs, technique));
+  const Terms fitted = positive_terms(terms, result.costs);
+  result.left_out_errors = errors_left_out(runs, [&](std::span<const TimedRun> others, std::span<const TimedRun> some) {
+    return relative_errors(some, fit(others, fitted, expected), technique);
+  });
   return result;
 }
 

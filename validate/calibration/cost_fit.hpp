@@ -7,7 +7,7 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// Fits the unit costs of a technique to timed runs.
+/// Fits the unit costs of a technique to timed runs, and its costs of threads to runs on one and on several threads.
 namespace detp::validate {
 
 struct TimedRun {
@@ -50,5 +50,50 @@ inline constexpr double weight_of_usual = 0.3;
 /// if there are fewer than 10 runs, or if a run took no time.
 [[nodiscard]] CostFit fit_costs(std::span<const TimedRun> runs, Technique technique,
                                 const std::optional<UnitCosts>& usual = {});
+
+/// A search on several threads, beside the same search on one.
+struct ThreadedRun {
+  std::size_t workload = 0;    ///< runs of one workload are left out of a fit together
+  Counts<double> counts = {};  ///< the same on any number of threads
+  int threads = 2;             ///< at least 2
+  double one_seconds = 0;      ///< on one thread: sorting, building and searching
+  double one_preparing = 0;    ///< on one thread: sorting and building alone
+  double seconds = 0;          ///< on `threads` threads
+  double preparing = 0;        ///< on `threads` threads, sorting and building alone
+};
+
+struct ThreadFit {
+  ThreadCosts costs;
+  std::size_t runs = 0;
+  double median_error = 0;                   ///< of |computed / measured seconds - 1|, on the fitted runs
+  std::vector<double> left_out_errors = {};  ///< |computed / measured seconds - 1| of each run, by fits without it
+};
+
+/// The costs that minimise the sum of squared relative errors of the runs' seconds, plus that of their seconds for sorting
+/// and building, plus weight_of_usual times the squared differences from the `usual` costs, if there are any: of the
+/// shares, and of the start in units of the usual one (non_negative_fit). Times on one thread count as measured, so unit
+/// costs have no influence. A share above 1 becomes 1; so does the share of a phase that no run divided among threads.
+/// The errors of left-out runs are those of five further fits, as in fit_costs.
+///
+/// Throws std::invalid_argument if there are fewer than 5 runs, if a run has fewer than 2 threads, or if it took no time.
+[[nodiscard]] ThreadFit fit_threads(std::span<const ThreadedRun> runs, Technique technique, Engine engine,
+                                    const std::optional<ThreadCosts>& usual = {});
+
+/// The errors of runs by fits without them: errors(fitted, left out) of five divisions, each of which leaves out the workloads whose number
+/// has one remainder modulo 5.
+template <class Run, class Errors>
+[[nodiscard]] std::vector<double> errors_left_out(std::span<const Run> runs, const Errors& errors) {
+  constexpr std::size_t parts = 5;
+  std::vector<double> all;
+  for (std::size_t part = 0; part < parts; ++part) {
+    std::vector<Run> fitted;
+    std::vector<Run> left_out;
+    for (const Run& run : runs) (run.workload % parts == part ? left_out : fitted).push_back(run);
+    if (fitted.empty()) continue;
+    const std::vector<double> of_part = errors(fitted, left_out);
+    all.insert(all.end(), of_part.begin(), of_part.end());
+  }
+  return all;
+}
 
 }  // namespace detp::validate

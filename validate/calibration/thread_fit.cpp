@@ -1,4 +1,4 @@
-#include "thread_fit.hpp"
+#include "cost_fit.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "cost_fit.hpp"
 #include "detp/validate/statistics/non_negative_fit.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
@@ -89,15 +88,10 @@ ThreadFit fit_threads(std::span<const ThreadedRun> runs, Technique technique, En
   const ThreadFitter fitter(technique, engine, usual);
   ThreadFit result{.costs = fitter.fit(runs), .runs = runs.size()};
   result.median_error = median(fitter.errors(runs, result.costs));
-  constexpr std::size_t parts = 5;
-  for (std::size_t part = 0; part < parts; ++part) {
-    std::vector<ThreadedRun> fitted;
-    std::vector<ThreadedRun> left_out;
-    for (const ThreadedRun& run : runs) (run.workload % parts == part ? left_out : fitted).push_back(run);
-    if (fitted.empty()) continue;
-    const std::vector<double> errors = fitter.errors(left_out, fitter.fit(fitted));
-    result.left_out_errors.insert(result.left_out_errors.end(), errors.begin(), errors.end());
-  }
+  result.left_out_errors =
+      errors_left_out(runs, [&](std::span<const ThreadedRun> others, std::span<const ThreadedRun> some) {
+        return fitter.errors(some, fitter.fit(others));
+      });
   return result;
 }
 

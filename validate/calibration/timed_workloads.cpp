@@ -154,18 +154,16 @@ std::vector<sim::Ray> rays_of(const TimedWorkload& workload, const std::vector<s
   return rays;
 }
 
-CheckSeconds time_checks(const sim::Problem& problem, std::span<const sim::Ray> rays,
-                         std::span<const sim::Disc> discs) {
+TimedScene::TimedScene(const TimedWorkload& workload, std::size_t place)
+    : place(place), discs(discs_of(workload, place)), rays(rays_of(workload, discs, place)) {
   constexpr int tries = 3;
-  CheckSeconds least{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   for (int i = 0; i < tries; ++i) {
     sim::Stopwatch watch;
     sim::Problem made = sim::make_problem_without_rays(discs, problem.farthest());
-    least.discs = std::min(least.discs, watch.lap());
+    checking_discs = std::min(checking_discs, watch.lap());
     sim::set_rays(made, rays);
-    least.rays = std::min(least.rays, watch.lap());
+    checking_rays = std::min(checking_rays, watch.lap());
   }
-  return least;
 }
 
 std::vector<Candidate> timed_candidates(const TimedWorkload& workload, std::size_t place) {

@@ -1,16 +1,15 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <span>
 #include <vector>
 
-#include "calibrate.hpp"
+#include "calibration.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/geometry/geometry.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/search/problem.hpp"
+#include "detp/validate/measure/rounds.hpp"
 
 /// What a calibration times: workloads, candidates and their rounds, and the touching of memory.
 namespace detp::validate {
@@ -46,64 +45,33 @@ inline constexpr std::size_t least_workloads = 12;  ///< measured even if that t
 [[nodiscard]] std::vector<sim::Ray> rays_of(const TimedWorkload& workload, const std::vector<sim::Disc>& discs,
                                             std::size_t place);
 
-/// Seconds for checking the discs and the rays of a search, which is a part of it: the shortest of some.
-struct CheckSeconds {
-  double discs = 0;
-  double rays = 0;
+/// The discs and rays of a workload.
+struct TimedScene {
+  TimedScene(const TimedWorkload& workload, std::size_t place);
+  TimedScene(const TimedScene&) = delete;
+  TimedScene& operator=(const TimedScene&) = delete;
+
+  std::size_t place;
+  std::vector<sim::Disc> discs;
+  std::vector<sim::Ray> rays;
+  sim::Problem problem = sim::make_problem(rays, discs);  ///< borrows both
+  /// seconds for checking the discs, and the rays, of a search, which is a part of it: the shortest of some
+  double checking_discs = std::numeric_limits<double>::infinity();
+  double checking_rays = std::numeric_limits<double>::infinity();
 };
-[[nodiscard]] CheckSeconds time_checks(const sim::Problem& problem, std::span<const sim::Ray> rays,
-                                       std::span<const sim::Disc> discs);
+
+/// A candidate on such a scene, and its times on some numbers of threads.
+struct TimedCandidate {
+  const TimedScene* scene;
+  Candidate candidate;
+  Engine engine;
+  Counts<double> counts = {};
+  std::vector<int> threads = {1};
+  std::vector<RoundTimes> times = {RoundTimes{}};
+};
 
 /// Parameters from too coarse to too fine; `place` varies them from workload to workload.
 [[nodiscard]] std::vector<Candidate> timed_candidates(const TimedWorkload& workload, std::size_t place);
-
-/// The times of one candidate on one number of threads, taken in rounds. The runs of a round follow each other, so that
-/// the data are in the caches; their shortest time counts. Between two rounds other candidates run, so that a disturbance
-/// by other programs rarely lasts for both.
-class RoundTimes {
- public:
-  void begin_round() {
-    seconds_.push_back(std::numeric_limits<double>::infinity());
-    preparing_.push_back(std::numeric_limits<double>::infinity());
-  }
-
-  void add(double seconds, double preparing) {
-    seconds_.back() = std::min(seconds_.back(), seconds);
-    preparing_.back() = std::min(preparing_.back(), preparing);
-  }
-
-  [[nodiscard]] std::size_t rounds() const { return seconds_.size(); }
-  [[nodiscard]] bool timed() const { return !seconds_.empty() && seconds() > 0 && seconds() < unknown; }
-
-  /// Whether the shortest times of two rounds agree. A time that only one round reached may be a stroke of luck, such as a
-  /// processor that was faster for a moment; much longer times were disturbed.
-  [[nodiscard]] bool agree() const {
-    constexpr double tolerance = 0.05;
-    double least = unknown;
-    double next = unknown;
-    for (const double one : seconds_) {
-      next = std::min(next, std::max(one, least));
-      least = std::min(least, one);
-    }
-    return next < unknown && next <= (1 + tolerance) * least;
-  }
-
-  [[nodiscard]] double seconds() const { return *std::min_element(seconds_.begin(), seconds_.end()); }
-  [[nodiscard]] double preparing() const { return *std::min_element(preparing_.begin(), preparing_.end()); }
-  /// The median of the rounds' seconds over the shortest; of two rounds 1.
-  [[nodiscard]] double usual_over_shortest() const {
-    std::vector<double> rounds = seconds_;
-    const auto middle = rounds.begin() + static_cast<std::ptrdiff_t>((rounds.size() - 1) / 2);
-    std::nth_element(rounds.begin(), middle, rounds.end());
-    return *middle / seconds();
-  }
-
- private:
-  static constexpr double unknown = std::numeric_limits<double>::infinity();
-
-  std::vector<double> seconds_;  ///< the shortest of each round
-  std::vector<double> preparing_;
-};
 
 /// Measures UnitCosts::touch and sets it for all techniques: seconds for touching a byte of memory for the first time, in large pages where
 /// the system offers them, as searches do. The shortest of some tries; a few milliseconds in all. Where there is no memory for it, the costs

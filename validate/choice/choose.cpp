@@ -11,7 +11,7 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/registry.hpp"
-#include "detp/validate/calibration/sum_costs.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
 #include "pilot.hpp"
 
 namespace detp::validate {

@@ -1,27 +1,19 @@
 #include <fmt/format.h>
 
 #include "command.hpp"
-#include "detp/sim/lists/simd/instruction_sets.hpp"
-#include "detp/validate/calibration/calibration_file.hpp"
+#include "detp/validate/calibration/calibrate_answer.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
 #include "detp/validate/cli/text/table.hpp"
-#include "detp/validate/statistics/statistics.hpp"
 
 namespace detp::cli {
 namespace {
 
 struct CalibrateOptions {
-  double seconds = validate::CalibrationOptions{}.seconds;
+  double seconds = validate::CalibrateRequest{}.seconds;
   InstructionSetOption instruction_set;
 };
-
-std::string joined_symbols(const std::vector<std::string_view>& symbols) {
-  std::string list;
-  for (const std::string_view symbol : symbols) list += fmt::format("{}{}", list.empty() ? "" : ", ", symbol);
-  return list;
-}
 
 /// "t 0.53, u 0.16" in nanoseconds.
 std::string costs_text(const UnitCosts& costs) {
@@ -32,50 +24,19 @@ std::string costs_text(const UnitCosts& costs) {
   return list;
 }
 
-/// Calls visit(engine, technique, fit) for each fit among `fits`, a member of EngineCalibration.
-template <class Fits, class Visit>
-void for_each_fit(const validate::Calibration& calibration, Fits validate::EngineCalibration::*fits,
-                  const Visit& visit) {
-  for (const Engine engine : {Engine::simd, Engine::plain})
-    for (const Technique technique : all_techniques)
-      if (const auto& fit = (calibration.of(engine).*fits)[static_cast<std::size_t>(technique)])
-        visit(engine, technique, *fit);
-}
-
-Json fits_json(const validate::Calibration& calibration) {
-  Json fits = Json::array();
-  for_each_fit(calibration, &validate::EngineCalibration::fits,
-               [&](Engine engine, Technique technique, const validate::CostFit& fit) {
-                 fits.push_back({{"technique", name(technique)},
-                                 {"engine", name(engine)},
-                                 {"runs", fit.runs},
-                                 {"median_error", fit.median_error},
-                                 {"left_out_median_error", validate::median(fit.left_out_errors)},
-                                 {"condition", fit.condition},
-                                 {"fitted", joined_symbols(fit.fitted)},
-                                 {"dropped", joined_symbols(fit.dropped)}});
-               });
-  return fits;
-}
-
-Json thread_fits_json(const validate::Calibration& calibration) {
-  Json fits = Json::array();
-  for_each_fit(calibration, &validate::EngineCalibration::thread_fits,
-               [&](Engine engine, Technique technique, const validate::ThreadFit& fit) {
-                 fits.push_back({{"technique", name(technique)},
-                                 {"engine", name(engine)},
-                                 {"runs", fit.runs},
-                                 {"median_error", fit.median_error},
-                                 {"left_out_median_error", validate::median(fit.left_out_errors)}});
-               });
-  return fits;
-}
-
 TextCell left_out_cell(double error) {
   return {fmt::format("{:.1f}", 100 * error), error > validate::doubtful_error ? Style::doubtful : Style::plain};
 }
 
-std::string thread_table(const validate::Calibration& calibration, const Screen& screen) {
+std::vector<TextCell> first_cells(const validate::FitRow& row) {
+  return {{std::string(name(row.technique))},
+          {std::string(name(row.engine))},
+          {fmt::format("{}", row.runs())},
+          {fmt::format("{:.1f}", 100 * row.median_error())},
+          left_out_cell(row.left_out_median_error())};
+}
+
+std::string thread_table(const std::vector<validate::FitRow>& rows, const Screen& screen) {
   TextTable table({{.head = "technique", .align = Align::left},
                    {.head = "engine", .align = Align::left},
                    {.head = "runs"},
@@ -84,42 +45,19 @@ std::string thread_table(const validate::Calibration& calibration, const Screen&
                    {.head = "preparing", .group = "serial share, %"},
                    {.head = "search", .group = "serial share, %"},
                    {.head = "start, microseconds"}});
-  for_each_fit(calibration, &validate::EngineCalibration::thread_fits,
-               [&](Engine engine, Technique technique, const validate::ThreadFit& fit) {
-                 table.add({{std::string(name(technique))},
-                            {std::string(name(engine))},
-                            {fmt::format("{}", fit.runs)},
-                            {fmt::format("{:.1f}", 100 * fit.median_error)},
-                            left_out_cell(validate::median(fit.left_out_errors)),
-                            {fmt::format("{:.0f}", 100 * fit.costs.serial_preparing)},
-                            {fmt::format("{:.0f}", 100 * fit.costs.serial_search)},
-                            {fmt::format("{:.3g}", 1e6 * fit.costs.start)}});
-               });
+  for (const validate::FitRow& row : rows) {
+    std::vector<TextCell> cells = first_cells(row);
+    for (TextCell& cell : std::vector<TextCell>{{fmt::format("{:.0f}", 100 * row.threads->costs.serial_preparing)},
+                                                {fmt::format("{:.0f}", 100 * row.threads->costs.serial_search)},
+                                                {fmt::format("{:.3g}", 1e6 * row.threads->costs.start)}})
+      cells.push_back(std::move(cell));
+    table.add(std::move(cells));
+  }
   return table.text(screen);
 }
 
-/// Where a calibration was saved, or why it was not.
-struct Saved {
-  std::string path = {};
-  std::string why_not = {};
-};
-
-/// Saves it where later commands look for it, unless there is a better one; with --output there, in any case.
-Saved save(const validate::Calibration& calibration, const CommonOptions& common) {
-  if (calibration.stopped) return {.why_not = "stopped"};
-  if (common.output) {
-    validate::write_calibration(*common.output, calibration);
-    return {.path = *common.output};
-  }
-  const std::string path = validate::default_calibration_path();
-  if (path.empty()) return {.why_not = "there is no folder for it"};
-  const std::string kept = validate::save_calibration(path, calibration);
-  if (kept.empty()) return {.path = path};
-  note(common, fmt::format("not saved: {}; --output FILE saves it in any case", kept));
-  return {.why_not = kept};
-}
-
-std::string to_text(const validate::Calibration& calibration, const Saved& saved, const Screen& screen) {
+std::string to_text(const validate::CalibrateAnswer& answer, const Screen& screen) {
+  const validate::Calibration& calibration = answer.calibration;
   TextTable table({{.head = "technique", .align = Align::left},
                    {.head = "engine", .align = Align::left},
                    {.head = "runs"},
@@ -127,23 +65,19 @@ std::string to_text(const validate::Calibration& calibration, const Saved& saved
                    {.head = "left out", .group = "% of the seconds"},
                    {.head = "condition", .spare = 1},
                    {.head = "nanoseconds", .align = Align::left}});
-  for_each_fit(calibration, &validate::EngineCalibration::fits,
-               [&](Engine engine, Technique technique, const validate::CostFit& fit) {
-                 table.add({{std::string(name(technique))},
-                            {std::string(name(engine))},
-                            {fmt::format("{}", fit.runs)},
-                            {fmt::format("{:.1f}", 100 * fit.median_error)},
-                            left_out_cell(validate::median(fit.left_out_errors)),
-                            {fmt::format("{:.0f}", fit.condition)},
-                            {costs_text(fit.costs)}});
-               });
+  for (const validate::FitRow& row : validate::cost_fit_rows(calibration)) {
+    std::vector<TextCell> cells = first_cells(row);
+    cells.push_back({fmt::format("{:.0f}", row.costs->condition)});
+    cells.push_back({costs_text(row.costs->costs)});
+    table.add(std::move(cells));
+  }
   std::string text = table.text(screen);
   std::string symbols =
       "left out: the error on workloads that were left out of the fit. condition: of the fit's matrix.";
   for (const UnitCostTerm& term : unit_cost_terms) symbols += fmt::format(" {}: {}.", term.symbol, term.meaning);
   text += legend(screen, symbols) + "\n";
   if (calibration.threads_left_out_median_error > 0)
-    text += thread_table(calibration, screen) +
+    text += thread_table(validate::thread_fit_rows(calibration), screen) +
             legend(screen,
                    "runs on several threads, from the same runs on one. serial share: of the work that one thread does "
                    "while the others wait; preparing: sorting and building. start: of each further thread.") +
@@ -160,73 +94,29 @@ std::string to_text(const validate::Calibration& calibration, const Saved& saved
         fmt::format("busy      other programs used this machine: {:.0f} % of the time went to detp; the costs are in "
                     "processor time",
                     100 * calibration.processor_share));
-  add("saved     " + (saved.path.empty() ? "no: " + saved.why_not : saved.path));
+  add("saved     " + (answer.saved.empty() ? "no: " + answer.not_saved_because : answer.saved));
   return text;
-}
-
-std::string to_csv(const validate::Calibration& calibration) {
-  Table table({"technique", "engine", "symbol", "seconds", "serial_preparing", "serial_search", "runs", "median_error",
-               "left_out_median_error", "condition"});
-  for_each_fit(calibration, &validate::EngineCalibration::fits,
-               [&](Engine engine, Technique technique, const validate::CostFit& fit) {
-                 for (const UnitCostTerm& term : unit_cost_terms)
-                   if (fit.costs.*term.cost > 0)
-                     table.add({{"technique", name(technique)},
-                                {"engine", name(engine)},
-                                {"symbol", term.symbol},
-                                {"seconds", fit.costs.*term.cost},
-                                {"runs", fit.runs},
-                                {"median_error", fit.median_error},
-                                {"left_out_median_error", validate::median(fit.left_out_errors)},
-                                {"condition", fit.condition}});
-               });
-  for_each_fit(calibration, &validate::EngineCalibration::thread_fits,
-               [&](Engine engine, Technique technique, const validate::ThreadFit& fit) {
-                 table.add({{"technique", name(technique)},
-                            {"engine", name(engine)},
-                            {"symbol", "thread"},
-                            {"seconds", fit.costs.start},
-                            {"serial_preparing", fit.costs.serial_preparing},
-                            {"serial_search", fit.costs.serial_search},
-                            {"runs", fit.runs},
-                            {"median_error", fit.median_error},
-                            {"left_out_median_error", validate::median(fit.left_out_errors)}});
-               });
-  return table.csv();
 }
 
 Result run_calibrate(const CalibrateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   require_positive("--seconds", options.seconds);
-  const std::string only = options.instruction_set.only();
-  std::optional<sim::stream::OnlyInstructionSet> used;
-  if (!only.empty()) used.emplace(only);
+  const validate::CalibrateRequest request{.seconds = options.seconds,
+                                           .threads = common.threads,
+                                           .instruction_set = options.instruction_set.only(),
+                                           .output = common.output};
   const ProgressLine progress(common.quiet);
-  const validate::Calibration calibration = validate::calibrate(
-      {.seconds = options.seconds, .threads = common.threads, .stop = stop, .progress = progress.report()});
-  const Saved saved = save(calibration, common);
-  const Json stored = Json::parse(validate::calibration_text(calibration));
+  const validate::CalibrateAnswer answer = validate::answer(request, stop, progress.report());
+  if (answer.could_be_saved)
+    note(common, fmt::format("not saved: {}; --output FILE saves it in any case", answer.not_saved_because));
   Result result;
   result.inputs = {{"seconds", options.seconds}};
-  result.json = {{"costs", stored["costs"]},
-                 {"threads", stored["threads"]},
-                 {"fits", fits_json(calibration)},
-                 {"thread_fits", thread_fits_json(calibration)},
-                 {"left_out_median_error", calibration.left_out_median_error},
-                 {"threads_left_out_median_error", calibration.threads_left_out_median_error},
-                 {"relative_error", calibration.relative_error()},
-                 {"relative_errors", stored["relative_errors"]},
-                 {"doubtful", !calibration.doubt().empty()},
-                 {"workloads", calibration.workloads},
-                 {"seconds", calibration.seconds},
-                 {"processor_share", calibration.processor_share},
-                 {"key", stored["key"]},
-                 {"date", stored["date"]},
-                 {"checksum", stored["checksum"]},
-                 {"saved", saved.path}};
-  result.text = to_text(calibration, saved, common.screen());
-  result.csv = to_csv(calibration);
+  result.json = json_of(validate::calibrate_fields(), answer);
+  result.text = to_text(answer, common.screen());
+  Table table(columns_of(validate::fit_fields()));
+  for (const Json& row : validate::calibrate_rows(answer.calibration)) table.add(row);
+  result.csv = table.csv();
   result.output_is_written = true;
-  if (calibration.stopped) result.stopped = sim::Progress{calibration.workloads, 0, "workloads measured"};
+  if (answer.calibration.stopped) result.stopped = sim::Progress{answer.calibration.workloads, 0, "workloads measured"};
   return result;
 }
 

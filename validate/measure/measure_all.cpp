@@ -7,12 +7,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "detp/sim/technique/technique.hpp"
 #include "detp/validate/statistics/statistics.hpp"
-#include "neighbours.hpp"
-#include "own_time.hpp"
-#include "stop_after.hpp"
-#include "timed_rounds.hpp"
+#include "rounds.hpp"
+#include "run_time.hpp"
 
 namespace detp::validate {
 namespace {
@@ -30,6 +27,26 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 // Expected shares of the time, for progress only.
 constexpr double share_of_first_runs = 0.5;
 constexpr double share_of_selecting = 0.3;
+
+std::vector<ParameterValue> steps_from(const Parameter& parameter, const ParameterValue& value) {
+  if (const auto* ratio = std::get_if<double>(&value)) return {(2 - parameter.step) * *ratio, parameter.step * *ratio};
+  const auto number = std::get<std::int64_t>(value);
+  if (parameter.step == 0) return {number - 1, number + 1};
+  return {static_cast<std::int64_t>(std::llround(static_cast<double>(number) / parameter.step)),
+          static_cast<std::int64_t>(std::llround(static_cast<double>(number) * parameter.step))};
+}
+
+/// Adds nothing if `value` is not in the parameter's range or not a change.
+void add_changed(std::vector<Candidate>& all, Candidate candidate, const Parameter& parameter,
+                 const ParameterValue& value) {
+  const ParameterValue now = parameter.get(candidate.parameters);
+  try {
+    set_parameter(candidate, parameter.name, value);
+  } catch (const std::invalid_argument&) {
+    return;
+  }
+  if (parameter.get(candidate.parameters) != now) all.push_back(candidate);
+}
 
 class Search {
  public:
@@ -138,13 +155,12 @@ class Search {
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
       const auto& [candidate, threads] = one.contender;
       const StopAfter clock(options_.stop, limit);
-      const OwnTime time(threads);
-      const sim::Outcome outcome =
-          sim::run(problem_, candidate, {.engine = options_.engine, .stop = clock.token(), .threads = threads});
-      one.abandoned = outcome.stopped;
-      one.first_seconds = outcome.stopped ? limit : time.own_part_of(outcome.seconds.total());
-      if (!outcome.stopped) one.counts = outcome.counts;
-      if (!outcome.stopped || time.seconds() > limit / 2 || stopped()) return;
+      const RunTime run =
+          time_run(problem_, candidate, {.engine = options_.engine, .stop = clock.token(), .threads = threads});
+      one.abandoned = run.outcome.stopped;
+      one.first_seconds = one.abandoned ? limit : run.seconds;
+      if (!one.abandoned) one.counts = run.outcome.counts;
+      if (!one.abandoned || run.seconds > limit / 2 || stopped()) return;
     }
   }
 
@@ -171,20 +187,18 @@ class Search {
   /// The time of a run without counting; nullopt if a stop request ended the run.
   [[nodiscard]] std::optional<double> time(const Timed& one) const {
     const auto& [candidate, threads] = one.contender;
-    const OwnTime time(threads);
-    const sim::Outcome outcome = sim::run(
+    const RunTime run = time_run(
         problem_, candidate, {.count = false, .engine = options_.engine, .stop = options_.stop, .threads = threads});
-    if (outcome.stopped) return std::nullopt;
-    return time.own_part_of(outcome.seconds.total());
+    return run.outcome.stopped ? std::nullopt : std::optional(run.seconds);
   }
 
   void time_in_turns(const std::vector<Timed*>& entries, double behind, std::vector<double> Timed::*half) const {
     const double enough = std::min<double>(most_rounds, std::ceil(enough_timed / fastest_));
-    const auto times = timed_rounds(entries.size(),
-                                    {.rounds = std::max(options_.repeats, static_cast<int>(enough)),
-                                     .behind = behind,
-                                     .most_seconds = options_.most_seconds},
-                                    [&](std::size_t i) { return time(*entries[i]); });
+    const auto times = timed_rounds(
+        entries.size(),
+        {.rounds = std::max(options_.repeats, static_cast<int>(enough)), .most_seconds = options_.most_seconds},
+        [&](const TimesOfAll& so_far) { return not_behind(so_far, behind); },
+        [&](std::size_t i, std::span<const double>) { return time(*entries[i]); });
     for (std::size_t i = 0; i < entries.size(); ++i) entries[i]->*half = times[i];
   }
 
@@ -197,6 +211,30 @@ class Search {
 };
 
 }  // namespace
+
+std::vector<Candidate> techniques_left_out(const std::vector<Candidate>& candidates) {
+  std::vector<Candidate> left_out;
+  for (const Technique technique : exact_techniques) {
+    const bool there = std::any_of(candidates.begin(), candidates.end(),
+                                   [&](const Candidate& candidate) { return candidate.technique == technique; });
+    if (!there) left_out.push_back(default_candidate(technique));
+  }
+  return left_out;
+}
+
+std::vector<Candidate> neighbours(const Candidate& candidate) {
+  std::vector<Candidate> all;
+  const auto& parameters = record_of(candidate.technique).parameters;
+  for (const Parameter& parameter : parameters) {
+    const ParameterValue now = parameter.get(candidate.parameters);
+    if (parameter.choices.empty()) {
+      for (const ParameterValue& value : steps_from(parameter, now)) add_changed(all, candidate, parameter, value);
+    } else if (parameters.size() == 1) {  // the choice is the only parameter to vary
+      for (const std::string_view choice : parameter.choices) add_changed(all, candidate, parameter, choice);
+    }
+  }
+  return all;
+}
 
 double Timed::judging_seconds() const { return abandoned ? first_seconds : median(judging); }
 

@@ -17,6 +17,14 @@ class Problem;
 /// Measures many candidates on the same rays and discs, and finds the fastest.
 namespace detp::validate {
 
+/// The exact techniques that none of these candidates uses, with default parameters.
+[[nodiscard]] std::vector<Candidate> techniques_left_out(const std::vector<Candidate>& candidates);
+
+/// Candidates of the same technique that differ in one parameter. Numbers are changed one step up and one step down
+/// (Parameter::step), within their range. A parameter with named choices is changed only if the technique has no other
+/// parameter.
+[[nodiscard]] std::vector<Candidate> neighbours(const Candidate& candidate);
+
 /// A candidate on a number of threads.
 struct Contender {
   Candidate candidate;
@@ -60,10 +68,11 @@ struct ExhaustiveOptions {
   double patience = 4;
   double patience_if_asked = 10;  ///< the same for a candidate that was asked for
   double least_patience = 0.005;  ///< seconds after which a first run may be abandoned
-  double behind = 1.5;            ///< as RoundLimits::behind, while the best is selected
-  int threads = 1;                ///< most threads
-  bool vary_threads = true;       ///< also the fastest on half and twice as many threads
-  int rounds_of_neighbours = 6;   ///< at most
+  double behind =
+      1.5;  ///< while the best is selected, one that is slower by more than this factor is timed in four rounds only
+  int threads = 1;               ///< most threads
+  bool vary_threads = true;      ///< also the fastest on half and twice as many threads
+  int rounds_of_neighbours = 6;  ///< at most
   Engine engine = Engine::simd;
   std::vector<Technique> disabled = {};  ///< techniques that are not added to those asked for
   std::stop_token stop = {};

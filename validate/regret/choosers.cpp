@@ -31,17 +31,19 @@ Chosen chosen(const Choice& choice, double seconds_before = 0) {
   return {choice.best(), seconds_before + choice.choosing_seconds};
 }
 
-Chosen pilot(const sim::Problem& problem, const CostTable& costs, int threads, Purpose purpose) {
+template <Purpose purpose>
+Chosen by_pilot(const sim::Problem& problem, const Job& /*job*/, const CostTable& costs, int threads) {
   return chosen(choose({.problem = &problem, .purpose = purpose, .threads = threads}, costs));
 }
 
-Chosen by_workload(Rigor rigor, const sim::Problem& problem, const Job& job, const CostTable& costs, int threads) {
+template <Rigor rigor>
+Chosen by_workload(const sim::Problem& problem, const Job& job, const CostTable& costs, int threads) {
   return chosen(choose({.problem = &problem, .workload = job.workload(), .rigor = rigor, .threads = threads}, costs),
                 job.observed().seconds);
 }
 
 /// The candidates of the pilot, the other techniques and neighbours of the fastest, each run several times.
-Chosen measure(const sim::Problem& problem, const CostTable& costs, int threads) {
+Chosen by_runs(const sim::Problem& problem, const Job& /*job*/, const CostTable& costs, int threads) {
   const sim::Stopwatch watch;
   const Choice found = choose({.problem = &problem, .threads = threads}, costs);
   const Analysis analysis = analyse(problem, found.candidates, {.threads = threads});
@@ -53,17 +55,14 @@ Chosen measure(const sim::Problem& problem, const CostTable& costs, int threads)
 }  // namespace
 
 std::vector<Chooser> all_choosers(const CostTable& costs) {
-  return {{"pilot", [costs](const sim::Problem& problem, const Job& /*job*/,
-                            int threads) { return pilot(problem, costs, threads, Purpose::prediction); }},
-          {"run", [costs](const sim::Problem& problem, const Job& /*job*/,
-                          int threads) { return pilot(problem, costs, threads, Purpose::one_search); }},
-          {"structural", [costs](const sim::Problem& problem, const Job& job,
-                                 int threads) { return by_workload(Rigor::structural, problem, job, costs, threads); }},
-          {"estimate", [costs](const sim::Problem& problem, const Job& job,
-                               int threads) { return by_workload(Rigor::estimate, problem, job, costs, threads); }},
-          {"measure", [costs](const sim::Problem& problem, const Job& /*job*/, int threads) {
-             return measure(problem, costs, threads);
-           }}};
+  const auto tier = [&costs](const char* name, auto* choose) {
+    return Chooser{name, [costs, choose](const sim::Problem& problem, const Job& job, int threads) {
+                     return choose(problem, job, costs, threads);
+                   }};
+  };
+  return {tier("pilot", by_pilot<Purpose::prediction>), tier("run", by_pilot<Purpose::one_search>),
+          tier("structural", by_workload<Rigor::structural>), tier("estimate", by_workload<Rigor::estimate>),
+          tier("measure", by_runs)};
 }
 
 const std::array<Baseline, 5>& baselines() {

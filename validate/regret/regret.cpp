@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string_view>
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/choice/prediction_error.hpp"
-#include "detp/validate/measure/own_time.hpp"
+#include "detp/validate/measure/run_time.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
 namespace detp::validate {
@@ -39,41 +38,32 @@ std::string counts_reason(const PredictionError& of_choice, const PredictionErro
   return fmt::format("counts: {} of the {} predicted {:.2g} times", error.worst, whose, error.worst_ratio);
 }
 
-constexpr double share_of_job = 0.05;  ///< rough share of a workload's time for making scene and rays, for progress
+/// With the effort of evidence that `choose` takes.
+Job make_regret_job(const BenchWorkload& workload, std::uint64_t seed, const std::stop_token& stop) {
+  Job job = make_bench_job(workload, seed, stop);
+  job.measuring.effort = sim::EvidenceEffort::for_search(job.given.rays, job.given.samples);
+  return job;
+}
 
-/// Roughly proportional to the time of the workload, for progress.
-double effort(const RegretWorkload& workload) { return workload.rays + 3e4; }
-
-class Runner {
+class RegretRunner {
  public:
-  Runner(std::span<const RegretWorkload> workloads, std::span<const Chooser> choosers, const RegretOptions& options)
-      : workloads_(workloads), choosers_(choosers), options_(options) {
-    result_.workloads = workloads.size();
-  }
+  RegretRunner(std::span<const BenchWorkload> workloads, std::span<const Chooser> choosers,
+               const RegretOptions& options)
+      : workloads_(workloads), choosers_(choosers), options_(options) {}
 
   RegretResult run_all() && {
-    const double whole = std::accumulate(workloads_.begin(), workloads_.end(), 0.0,
-                                         [](double sum, const auto& one) { return sum + effort(one); });
-    double before = 0;
-    for (std::size_t i = 0; i < workloads_.size() && !options_.stop.stop_requested(); ++i) {
-      const double after = before + effort(workloads_[i]) / whole;
-      try {
-        if (run(i, sim::part_of(options_.progress, before, after))) ++result_.done;
-      } catch (const sim::Stopped&) {            // while making rays
-      } catch (const std::logic_error& error) {  // too long for the memory, or an invalid argument
-        result_.skipped.push_back({workloads_[i], error.what()});
-        ++result_.done;
-      }
-      before = after;
-    }
-    result_.stopped = result_.done < workloads_.size();
-    return std::move(result_);
+    RegretResult result;
+    static_cast<SetProgress&>(result) = run_each(
+        workloads_, [&](std::size_t i, const sim::ReportPhase& progress) { return run(i, progress); }, options_.stop,
+        options_.progress);
+    result.rows = std::move(rows_);
+    return result;
   }
 
  private:
-  /// Returns false if a stop request ended it.
-  bool run(std::size_t place, const sim::ReportPhase& progress) {
-    const RegretWorkload& workload = workloads_[place];
+  std::string run(std::size_t place, const sim::ReportPhase& progress) try {
+    constexpr double share_of_job = 0.05;  // rough share of a workload's time for making scene and rays, for progress
+    const BenchWorkload& workload = workloads_[place];
     if (progress) progress({fmt::format("{}, making {:g} rays", workload.scene, workload.rays), 0, share_of_job});
     const Job job = make_regret_job(workload, options_.seed, options_.stop);
     std::vector<int> threads{options_.threads};
@@ -81,14 +71,15 @@ class Runner {
     const double each = (1 - share_of_job) / static_cast<double>(threads.size());
     double before = share_of_job;
     for (const int number : threads) {
-      const auto part = sim::part_of(progress, before, before + each);
-      if (!run(workload, job, number, part)) return false;
+      add_row(workload, job, number, sim::part_of(progress, before, before + each));
       before += each;
     }
-    return true;
+    return "";
+  } catch (const std::logic_error& error) {  // too long for the memory, or an invalid argument
+    return error.what();
   }
 
-  bool run(const RegretWorkload& workload, const Job& job, int threads, const sim::ReportPhase& progress) {
+  void add_row(const BenchWorkload& workload, const Job& job, int threads, const sim::ReportPhase& progress) {
     const sim::Problem& problem = job.problem();
     std::vector<Chosen> choices;
     for (const Chooser& chooser : choosers_) choices.push_back(choice_of(chooser, problem, job, threads));
@@ -103,7 +94,7 @@ class Runner {
     search.stop = options_.stop;
     search.progress = titled(progress, fmt::format("{}, {:g} rays", workload.scene, workload.rays));
     const Exhaustive found = measure_all(problem, asked, search);
-    if (found.stopped) return false;
+    if (found.stopped) throw sim::Stopped("stopped while candidates were timed");
     if (!found.best) throw std::length_error("no candidate's index fits in memory");
     RegretRow row{.workload = workload,
                   .rays = job.given.rays,
@@ -123,8 +114,7 @@ class Runner {
       BaselineRow& regrets = row.baselines.emplace_back();
       for (const Candidate& candidate : candidates) regrets.push_back(regret(found, found.find({candidate, threads})));
     }
-    result_.rows.push_back(std::move(row));
-    return true;
+    rows_.push_back(std::move(row));
   }
 
   /// The time of choosing is the median of several choices, as runs are judged by medians; one choice is enough if it takes
@@ -144,14 +134,6 @@ class Runner {
     return choice;
   }
 
-  static sim::ReportPhase titled(const sim::ReportPhase& progress, const std::string& title) {
-    if (!progress) return {};
-    return [progress, title](sim::Phase phase) {
-      phase.what = fmt::format("{}: {}", title, phase.what);
-      progress(phase);
-    };
-  }
-
   static std::optional<Regret> regret(const Exhaustive& found, const Timed* candidate) {
     if (candidate == nullptr) return std::nullopt;
     return Regret{candidate->judged_ratio(found.candidates[*found.best]), candidate->abandoned};
@@ -167,17 +149,17 @@ class Runner {
             reason_of_regret(workload, options_.costs, *chosen, found.candidates[*found.best], found.noise)};
   }
 
-  std::span<const RegretWorkload> workloads_;
+  std::span<const BenchWorkload> workloads_;
   std::span<const Chooser> choosers_;
   const RegretOptions& options_;
-  RegretResult result_;
+  std::vector<RegretRow> rows_;
 };
 
 }  // namespace
 
-RegretResult run_regret(std::span<const RegretWorkload> workloads, std::span<const Chooser> choosers,
+RegretResult run_regret(std::span<const BenchWorkload> workloads, std::span<const Chooser> choosers,
                         const RegretOptions& options) {
-  return Runner(workloads, choosers, options).run_all();
+  return RegretRunner(workloads, choosers, options).run_all();
 }
 
 std::string reason_of_regret(const Workload& workload, const CostTable& costs, const Timed& choice, const Timed& best,

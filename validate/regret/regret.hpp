@@ -9,8 +9,8 @@
 
 #include "choosers.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/validate/bench/workload.hpp"
 #include "detp/validate/measure/measure_all.hpp"
-#include "regret_workloads.hpp"
 
 /// Measures the regret of choices: the time of what was chosen over the time of the best of all candidates.
 namespace detp::validate {
@@ -35,7 +35,7 @@ using BaselineRow = std::vector<std::optional<Regret>>;
 
 /// One workload with one number of threads.
 struct RegretRow {
-  RegretWorkload workload;
+  BenchWorkload workload;
   double rays = 0;         ///< actual number, with all segments of photon paths
   double samples = 0;      ///< actual number
   double disc_radius = 0;  ///< in scene units
@@ -63,17 +63,8 @@ struct RegretOptions {
   sim::ReportPhase progress = {};
 };
 
-struct RegretSkip {
-  RegretWorkload workload;
-  std::string why;
-};
-
-struct RegretResult {
+struct RegretResult : SetProgress {
   std::vector<RegretRow> rows;
-  std::vector<RegretSkip> skipped;
-  std::size_t workloads = 0;  ///< number of requested workloads
-  std::size_t done = 0;       ///< number of workloads run to the end or skipped
-  bool stopped = false;       ///< a stop request came before the end
 };
 
 /// Whether the workload with this number is also run with RegretOptions::more_threads: one of five successive ones,
@@ -82,7 +73,7 @@ struct RegretResult {
 
 /// Runs the choosers and the exhaustive search on each workload. Skips a workload, with the reason, if it does not fit
 /// in memory or if a chooser or technique refuses it. Throws as make_job does for a file that cannot be read.
-[[nodiscard]] RegretResult run_regret(std::span<const RegretWorkload> workloads, std::span<const Chooser> choosers,
+[[nodiscard]] RegretResult run_regret(std::span<const BenchWorkload> workloads, std::span<const Chooser> choosers,
                                       const RegretOptions& options);
 
 /// The reason why `choice` was chosen although `best` is faster, in a few words. The predicted times of the two are the

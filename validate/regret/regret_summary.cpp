@@ -13,26 +13,17 @@ using RegretRows = std::vector<const RegretRow*>;
 /// The ratio of a row; nullopt if the row has none.
 using RatioOf = std::function<std::optional<Regret>(const RegretRow&)>;
 
-template <class IsIn>
-Figures figures_where(const RegretRows& rows, const RatioOf& ratio_of, IsIn is_in) {
+/// The figures over the rows whose scene is held out or not; over all: nullopt.
+Figures figures_over(const RegretRows& rows, const RatioOf& ratio_of, std::optional<bool> held_out = {}) {
   std::vector<Regret> ratios;
   for (const RegretRow* row : rows)
-    if (is_in(*row))
+    if (row->workload.held_out == held_out.value_or(row->workload.held_out))
       if (const auto ratio = ratio_of(*row)) ratios.push_back(*ratio);
   return figures_of(ratios);
 }
 
-Figures all_figures(const RegretRows& rows, const RatioOf& ratio_of) {
-  return figures_where(rows, ratio_of, [](const RegretRow& /*row*/) { return true; });
-}
-
-Figures fitted_figures(const RegretRows& rows, const RatioOf& ratio_of) {
-  return figures_where(rows, ratio_of, [](const RegretRow& row) { return !row.workload.held_out; });
-}
-
 RegretFigures regret_figures(const RegretRows& rows, const RatioOf& ratio_of) {
-  return {all_figures(rows, ratio_of), fitted_figures(rows, ratio_of),
-          figures_where(rows, ratio_of, [](const RegretRow& row) { return row.workload.held_out; })};
+  return {figures_over(rows, ratio_of), figures_over(rows, ratio_of, false), figures_over(rows, ratio_of, true)};
 }
 
 PredictionFigures prediction_figures(const RegretRows& rows, std::size_t tier) {
@@ -54,7 +45,7 @@ TierSummary tier_summary(const RegretRows& rows, std::size_t tier) {
   };
   return {rows.front()->choices[tier].tier,
           regret_figures(rows, [tier](const RegretRow& row) { return row.choices[tier].regret; }),
-          all_figures(rows, price), prediction_figures(rows, tier)};
+          figures_over(rows, price), prediction_figures(rows, tier)};
 }
 
 RatioOf option_of(std::size_t baseline, std::size_t option) {
@@ -65,7 +56,7 @@ BaselineSummary baseline_summary(const RegretRows& rows, std::size_t baseline) {
   BaselineSummary summary;
   double least = 0;
   for (std::size_t option = 0; option < rows.front()->baselines[baseline].size(); ++option) {
-    const Figures fitted = fitted_figures(rows, option_of(baseline, option));
+    const Figures fitted = figures_over(rows, option_of(baseline, option), false);
     if (fitted.rows == 0 || (least > 0 && fitted.geometric_mean >= least)) continue;
     least = fitted.geometric_mean;
     summary.option = option;
@@ -92,6 +83,12 @@ Figures figures_of(std::span<const Regret> ratios) {
   return figures;
 }
 
+std::optional<Candidate> candidate_of(std::size_t baseline, const BaselineSummary& summary) {
+  const Baseline& rule = baselines()[baseline];
+  if (rule.by_workload) return std::nullopt;
+  return rule.candidates(Workload{})[summary.option];
+}
+
 RegretSummary summarise(std::span<const RegretRow> rows, int threads) {
   RegretRows of_threads;
   for (const RegretRow& row : rows)
@@ -103,7 +100,7 @@ RegretSummary summarise(std::span<const RegretRow> rows, int threads) {
   for (std::size_t baseline = 0; baseline < of_threads.front()->baselines.size(); ++baseline)
     summary.baselines.push_back(baseline_summary(of_threads, baseline));
   summary.noise =
-      all_figures(of_threads, [](const RegretRow& row) { return Regret{std::max(row.noise, 1 / row.noise)}; });
+      figures_over(of_threads, [](const RegretRow& row) { return Regret{std::max(row.noise, 1 / row.noise)}; });
   return summary;
 }
 

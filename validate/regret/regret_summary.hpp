@@ -22,7 +22,7 @@ struct Figures {
 /// The figures of these ratios, all > 0.
 [[nodiscard]] Figures figures_of(std::span<const Regret> ratios);
 
-/// The figures over all workloads, and over those that are fitted and held out (RegretWorkload::held_out).
+/// The figures over all workloads, and over those that are fitted and held out (BenchWorkload::held_out).
 struct RegretFigures {
   Figures all;
   Figures fitted;
@@ -49,6 +49,9 @@ struct BaselineSummary {
   std::size_t option = 0;  ///< index of the candidate with the smallest geometric mean on the fitted workloads
   RegretFigures regret;    ///< with that candidate on all workloads
 };
+
+/// The candidate of a baseline, one of baselines(), by its index; nullopt if it depends on the workload.
+[[nodiscard]] std::optional<Candidate> candidate_of(std::size_t baseline, const BaselineSummary& summary);
 
 struct RegretSummary {
   int threads = 1;

@@ -1,10 +1,9 @@
-#include "detp/validate/bench/bench.hpp"
+#include "detp/validate/bench/bench_answer.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
-#include "detp/validate/bench/summary.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 
 using namespace detp;
@@ -97,14 +96,13 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("all run once, the fastest two of each side for all repeats, and hits are compared") {
     const Job job = small_job();
-    auto right = right_hits(job, Candidate{}, 0);
-    REQUIRE(right);
+    RightHits right = right_hits(job, Candidate{}, 0);
     const std::vector<Competitor> competitors{
         Candidate{},  Candidate{Technique::grid, GridParameters{4}}, Candidate{Technique::octree, OctreeParameters{2}},
         EmbreeMode{}, EmbreeMode{.query = EmbreeQuery::occluded},    EmbreeMode{.rays = EmbreeRays::packet_8},
         OwnChoice{}};
     const RaceOptions options{.repeats = 3, .most_seconds = 60, .costs = built_in_unit_costs()};
-    Race found = race(job, *right, EmbreePeer(1), competitors, options);
+    Race found = race(job, right, EmbreePeer(1), competitors, options);
     CHECK(found.complete);
     REQUIRE(found.results.size() == competitors.size());
     for (const auto side : {is_own_technique, is_embree})
@@ -114,8 +112,8 @@ TEST_SUITE("known answer") {
     CHECK(technique_of(found.results.back().competitor) == "choice");
     CHECK(found.results.back().seconds.size() == 3);
     for (const CompetitorResult& one : found.results) CHECK(one.wrong_hits <= (is_embree(one.competitor) ? 2U : 0U));
-    ++right->hits[0];
-    found = race(job, *right, EmbreePeer(1), competitors, options);
+    ++right.hits[0];
+    found = race(job, right, EmbreePeer(1), competitors, options);
     for (const CompetitorResult& one : found.results) CHECK(one.wrong_hits >= 1);
   }
 

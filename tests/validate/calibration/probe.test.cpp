@@ -1,4 +1,4 @@
-#include "detp/validate/calibration/probe.hpp"
+#include "detp/validate/calibration/costs_in_use.hpp"
 
 #include <doctest/doctest.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "detp/validate/calibration/thread_fit.hpp"
+#include "detp/validate/calibration/cost_fit.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 #include "detp/sim/effects/observe.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/regret/regret_workloads.hpp"
+#include "detp/validate/bench/workload.hpp"
 
 using namespace detp;
 using namespace detp::validate;

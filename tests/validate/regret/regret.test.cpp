@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "detp/validate/bench/workload_sets.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/regret/regret_summary.hpp"
 #include "support/attempts.hpp"
@@ -21,8 +22,13 @@ Chooser always(const Candidate& candidate) {
           }};
 }
 
-RegretWorkload tiny_workload(bool held_out) {
-  return {.scene = "@uniform", .discs = "@uniform", .samples = 100, .radius = 0.04, .rays = 50, .held_out = held_out};
+BenchWorkload tiny_workload(bool held_out) {
+  return {.scene = "@uniform",
+          .discs = "@uniform",
+          .samples = 100,
+          .disc_radius = {0.04, true},
+          .rays = 50,
+          .held_out = held_out};
 }
 
 /// Whether a tier takes longer than the best constant on all workloads, by more than the noise.
@@ -113,7 +119,7 @@ TEST_SUITE("long") {
     std::vector<Chooser> choosers = all_choosers(built_in_unit_costs());
     const std::size_t tiers = choosers.size();
     choosers.push_back(always({Technique::box_tree, BoxTreeParameters{4, 1024}}));
-    const auto workloads = regret_set(RegretEffort::quick, "").workloads;
+    const auto workloads = regret_set(BenchEffort::quick, "").workloads;
     CHECK(support::in_attempts(3, [&] {  // on a busy machine any choice may seem wrong, once
       const RegretSummary summary =
           summarise(run_regret(workloads, choosers, {.costs = built_in_unit_costs()}).rows, 1);

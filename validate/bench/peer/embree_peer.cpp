@@ -3,15 +3,91 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <array>
 #include <numbers>
+#include <stdexcept>
+#include <type_traits>
 
+#include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/base/embree.hpp"
 #include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stopped.hpp"
-#include "embree_discs.hpp"
 #include "embree_tracer.hpp"
 
 namespace detp::validate {
+
+struct ReleaseEmbree {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+template <class Handle>
+using EmbreeOwned = std::unique_ptr<std::remove_pointer_t<Handle>, ReleaseEmbree>;
+
 namespace {
+
+RTCBuildQuality to_embree(EmbreeQuality quality) {
+  if (quality == EmbreeQuality::low) return RTC_BUILD_QUALITY_LOW;
+  return quality == EmbreeQuality::medium ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH;
+}
+
+/// The setting of the device; nothing for an empty name.
+std::string setting_of(const std::string& instruction_set) {
+  if (instruction_set.empty()) return {};
+  if (instruction_set == "AVX3") return ",isa=avx512";
+  if (instruction_set == "AVX2") return ",isa=avx2";
+  if (instruction_set == "SSE4") return ",isa=sse4.2";
+  throw std::invalid_argument("Embree has no counterpart of the instruction set " + detp::quoted(instruction_set) +
+                              "; there are AVX3, AVX2, SSE4");
+}
+
+float* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t floats, std::size_t items) {
+  return static_cast<float*>(rtcSetNewGeometryBuffer(geometry, type, 0, format, floats * sizeof(float), items));
+}
+
+/// If an Embree call of this thread has failed, throws std::bad_alloc if Embree was out of memory, else
+/// std::runtime_error with Embree's error number.
+void require_no_embree_error(RTCDevice device) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (error != RTC_ERROR_NONE)
+    throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
+}
+
+/// A device that builds with `threads` threads, which have been started when the function returns. It uses the counterpart of one of our
+/// instruction sets (AVX3: AVX-512; AVX2; SSE4: SSE4.2), or all that the machine has if this is empty.
+EmbreeOwned<RTCDevice> make_embree_device(int threads, const std::string& instruction_set) {
+  const std::string settings = "threads=" + std::to_string(threads) + ",start_threads=1" + setting_of(instruction_set);
+  EmbreeOwned<RTCDevice> device(rtcNewDevice(settings.c_str()));
+  require_no_embree_error(device.get());
+  return device;
+}
+
+/// A committed scene of oriented discs in single precision. Primitive i is disc i. Queries call the context's filter.
+/// Throws sim::Stopped if a stop was requested, and as require_no_embree_error does.
+EmbreeOwned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::Disc> discs, EmbreeQuality quality,
+                                         const std::stop_token& stop) {
+  EmbreeOwned<RTCScene> scene(rtcNewScene(device));
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+  rtcSetSceneBuildQuality(scene.get(), to_embree(quality));
+  const EmbreeOwned<RTCGeometry> geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT));
+  rtcSetGeometryBuildQuality(geometry.get(), to_embree(quality));
+  float* vertex = new_buffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, 4, discs.size());
+  float* normal = new_buffer(geometry.get(), RTC_BUFFER_TYPE_NORMAL, RTC_FORMAT_FLOAT3, 3, discs.size());
+  require_no_embree_error(device);
+  sim::parallel_for(sim::ParallelRange(0, discs.size(), 4096), [&](const sim::ParallelRange& part) {
+    for (std::size_t i = part.begin(); i < part.end(); ++i) {
+      const sim::Disc& disc = discs[i];
+      store_four(vertex + 4 * i, static_cast<float>(disc.centre.x), static_cast<float>(disc.centre.y),
+                 static_cast<float>(disc.centre.z), static_cast<float>(disc.radius));
+      for (int axis = 0; axis < 3; ++axis) normal[3 * i + axis] = static_cast<float>(disc.normal[axis]);
+    }
+  });
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometry(scene.get(), geometry.get());
+  sim::embree::commit(device, scene.get(), stop, "building Embree's tree");
+  return scene;
+}
 
 using Tallies = std::vector<DiscTally>;
 using Range = sim::ParallelRange;
@@ -44,6 +120,31 @@ PeerOutcome merged(oneapi::tbb::enumerable_thread_specific<Tallies>& all, std::s
 
 }  // namespace
 
+std::string call_of(const EmbreeMode& mode) {
+  constexpr std::array suffixes{"1", "8", "16", "1M", "NM"};
+  const std::string stem = mode.query == EmbreeQuery::intersect ? "rtcIntersect" : "rtcOccluded";
+  return stem + suffixes[static_cast<std::size_t>(mode.rays)];
+}
+
+std::string name(EmbreeQuality quality) {
+  constexpr std::array names{"low", "medium", "high"};
+  return names[static_cast<std::size_t>(quality)];
+}
+
+std::string describe(const EmbreeMode& mode) {
+  return call_of(mode) + ", " + name(mode.quality) + (mode.coherent ? ", coherent" : ", incoherent");
+}
+
+std::vector<EmbreeMode> all_embree_modes() {
+  std::vector<EmbreeMode> modes;
+  for (const auto quality : {EmbreeQuality::low, EmbreeQuality::medium, EmbreeQuality::high})
+    for (const auto query : {EmbreeQuery::intersect, EmbreeQuery::occluded})
+      for (const auto rays : {EmbreeRays::one, EmbreeRays::packet_8, EmbreeRays::packet_16, EmbreeRays::stream_of_rays,
+                              EmbreeRays::stream_of_packets})
+        for (const bool coherent : {false, true}) modes.push_back({query, rays, quality, coherent});
+  return modes;
+}
+
 struct EmbreePeer::Threads {
   Threads(int threads, const std::string& instruction_set)
       : count(threads), device(make_embree_device(threads, instruction_set)) {}
@@ -64,12 +165,12 @@ PeerOutcome EmbreePeer::run(std::span<const sim::Ray> rays, std::span<const sim:
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                           static_cast<std::size_t>(threads_->count));
   const auto scene = build_embree_discs(threads_->device.get(), discs, mode.quality, stop);
-  const EmbreeTracer tracer(scene.get(), rays, sphere_around(scene.get()), mode);
+  const sim::Sphere around = sphere_around(scene.get());
   oneapi::tbb::enumerable_thread_specific<Tallies> all(Tallies(discs.size()));
   const std::size_t blocks = (rays.size() + block - 1) / block;
   sim::parallel_for(Range(0, blocks, 1), [&](const Range& part) {
     for (std::size_t i = part.begin(); i < part.end() && !stop.stop_requested(); ++i)
-      tracer.trace(i * block, std::min(rays.size(), (i + 1) * block), all.local());
+      trace(scene.get(), rays, around, mode, {i * block, std::min(rays.size(), (i + 1) * block)}, all.local());
   });
   PeerOutcome outcome = merged(all, discs);
   outcome.stopped = stop.stop_requested();

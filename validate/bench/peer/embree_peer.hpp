@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "detp/sim/geometry/geometry.hpp"
-#include "embree_mode.hpp"
 
 /// A competitor of our techniques: all hits by Embree, in single precision.
 ///
@@ -16,6 +15,41 @@
 /// discs found more than once would have to be removed. CGAL's tree of boxes could hold discs in double precision, but
 /// requires GMP and MPFR and uses no SIMD, so it would not be the fastest on any workload.
 namespace detp::validate {
+
+/// A filter rejects every hit, so both kinds of query visit every hit. The queries differ in the order of visiting
+/// nodes (nearest first, or any order) and in what a ray stores.
+enum class EmbreeQuery { intersect, occluded };
+
+/// Number and form of the rays in a call.
+enum class EmbreeRays {
+  one,               ///< rtcIntersect1
+  packet_8,          ///< rtcIntersect8
+  packet_16,         ///< rtcIntersect16
+  stream_of_rays,    ///< rtcIntersect1M, 64 rays
+  stream_of_packets  ///< rtcIntersectNM, 8 packets of 8
+};
+
+enum class EmbreeQuality { low, medium, high };
+
+struct EmbreeMode {
+  EmbreeQuery query = EmbreeQuery::intersect;
+  EmbreeRays rays = EmbreeRays::one;
+  EmbreeQuality quality = EmbreeQuality::medium;
+  bool coherent = false;  ///< RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+  bool operator==(const EmbreeMode&) const = default;
+};
+
+/// The name of the function called: "rtcIntersect8".
+[[nodiscard]] std::string call_of(const EmbreeMode& mode);
+
+/// "low", "medium" or "high".
+[[nodiscard]] std::string name(EmbreeQuality quality);
+
+/// "rtcIntersect8, low, coherent".
+[[nodiscard]] std::string describe(const EmbreeMode& mode);
+
+/// All 60 modes.
+[[nodiscard]] std::vector<EmbreeMode> all_embree_modes();
 
 /// Embree's results for each disc.
 struct PeerOutcome {
@@ -31,7 +65,8 @@ struct PeerOutcome {
 /// The constructor makes the device and starts its threads, so that timed runs do not include this.
 class EmbreePeer {
  public:
-  /// `instruction_set` is one of ours; empty: all that the machine has. Throws as make_embree_device.
+  /// `instruction_set` is one of ours; empty: all that the machine has. Throws
+  /// std::invalid_argument for one of which Embree has no counterpart.
   explicit EmbreePeer(int threads, const std::string& instruction_set = {});
   ~EmbreePeer();
   EmbreePeer(const EmbreePeer&) = delete;

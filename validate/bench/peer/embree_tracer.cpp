@@ -1,15 +1,86 @@
 #include "embree_tracer.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <type_traits>
 
 namespace detp::validate {
 namespace {
+
+/// While it exists, this thread treats denormal numbers as zero, as Embree's documentation strongly recommends. The
+/// destructor restores the previous state, because the exact techniques rely on denormals.
+class FlushDenormals {
+ public:
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+#if defined(__SSE2__)
+  FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | flush_to_zero | denormals_are_zero); }
+  ~FlushDenormals() { _mm_setcsr(before_); }
+
+ private:
+  static constexpr unsigned flush_to_zero = 0x8000;
+  static constexpr unsigned denormals_are_zero = 0x0040;
+  unsigned before_;
+#else
+  FlushDenormals() = default;
+#endif
+};
+
+/// Converts rays to Embree's rays, in single precision. Embree's rays only go forwards. So a line, which is unbounded
+/// both ways, becomes a ray that starts in front of all discs and ends behind them.
+class EmbreeRayMaker {
+ public:
+  /// `around` must contain all discs.
+  explicit EmbreeRayMaker(const sim::Sphere& around) : around_(around) {}
+
+  /// The part of a ray that can hit a disc: its origin, and its length.
+  struct RaySegment {
+    glm::vec3 origin;
+    float end;
+  };
+
+  [[nodiscard]] RaySegment segment_of(const sim::Ray& ray) const {
+    if (!ray.is_line()) return {glm::vec3(ray.origin), static_cast<float>(ray.length)};
+    const double start = glm::dot(around_.centre - ray.origin, ray.direction) - around_.radius;
+    return {glm::vec3(ray.origin + start * ray.direction), static_cast<float>(2 * around_.radius)};
+  }
+
+  void write(const sim::Ray& ray, unsigned id, RTCRay& to) const {
+    const RaySegment segment = segment_of(ray);
+    const glm::vec3 direction(ray.direction);
+    store_four(&to.org_x, segment.origin.x, segment.origin.y, segment.origin.z, 0);
+    store_four(&to.dir_x, direction.x, direction.y, direction.z, 0);
+    to.tfar = segment.end;
+    to.mask = 0xFFFFFFFFU;
+    to.id = id;
+    to.flags = 0;
+  }
+
+  /// Writes the ray into one lane of a packet, RTCRay8 or RTCRay16.
+  template <class Packet>
+  void write(const sim::Ray& ray, unsigned id, Packet& to, std::size_t lane) const {
+    const RaySegment segment = segment_of(ray);
+    to.org_x[lane] = segment.origin.x;
+    to.org_y[lane] = segment.origin.y;
+    to.org_z[lane] = segment.origin.z;
+    to.tnear[lane] = 0;
+    to.dir_x[lane] = static_cast<float>(ray.direction.x);
+    to.dir_y[lane] = static_cast<float>(ray.direction.y);
+    to.dir_z[lane] = static_cast<float>(ray.direction.z);
+    to.time[lane] = 0;
+    to.tfar[lane] = segment.end;
+    to.mask[lane] = 0xFFFFFFFFU;
+    to.id[lane] = id;
+    to.flags[lane] = 0;
+  }
+
+ private:
+  sim::Sphere around_;
+};
 
 /// Overloads of Embree's calls, selected by the type of the ray: RTCRay for rtcOccluded, RTCRayHit for rtcIntersect, or
 /// packets of 8 or 16 of these.
@@ -100,97 +171,111 @@ void collect_and_refuse(const RTCFilterFunctionNArguments* arguments) {
 // Embree's documentation recommends coherent streams of around 64 rays.
 constexpr std::size_t stream = 64;
 
+class EmbreeTracer {
+ public:
+  EmbreeTracer(RTCScene scene, std::span<const sim::Ray> rays, const sim::Sphere& around)
+      : scene_(scene), rays_(rays), maker_(around) {}
+
+  /// RayHit, Packet8, Packet16: RTCRay… for rtcOccluded, RTCRayHit… for rtcIntersect.
+  template <class RayHit, class Packet8, class Packet16>
+  void trace(EmbreeRays form, std::size_t first, std::size_t last, RTCIntersectContext& context) const {
+    switch (form) {
+      case EmbreeRays::one:
+        return single_rays<RayHit>(first, last, context);
+      case EmbreeRays::packet_8:
+        return packets<Packet8>(first, last, context);
+      case EmbreeRays::packet_16:
+        return packets<Packet16>(first, last, context);
+      case EmbreeRays::stream_of_rays:
+        return ray_streams<RayHit>(first, last, context);
+      case EmbreeRays::stream_of_packets:
+        return packet_streams<Packet8>(first, last, context);
+    }
+  }
+
+ private:
+  /// Writes `count` rays from number `first` on into a packet. The other lanes are inactive as streams require: their
+  /// rays end before they start.
+  template <class Packet>
+  void write_packet(std::size_t first, std::size_t count, Packet& packet) const {
+    auto& rays = calls::ray_of(packet);
+    for (std::size_t lane = 0; lane < count; ++lane)
+      maker_.write(rays_[first + lane], static_cast<unsigned>(first + lane), rays, lane);
+    for (std::size_t lane = count; lane < calls::width<Packet>; ++lane) {
+      maker_.write(rays_[first], static_cast<unsigned>(first), rays, lane);
+      rays.tfar[lane] = -1;
+    }
+    calls::clear_hit(packet);
+  }
+
+  template <class RayHit>
+  void single_rays(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
+    RayHit ray{};
+    for (; first < last; ++first) {
+      maker_.write(rays_[first], static_cast<unsigned>(first), calls::ray_of(ray));
+      calls::clear_hit(ray);
+      calls::query(scene_, context, ray);
+    }
+  }
+
+  template <class RayHit>
+  void ray_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
+    std::array<RayHit, stream> rays{};
+    while (first < last) {
+      const std::size_t count = std::min(stream, last - first);
+      for (std::size_t i = 0; i < count; ++i) {
+        maker_.write(rays_[first + i], static_cast<unsigned>(first + i), calls::ray_of(rays[i]));
+        calls::clear_hit(rays[i]);
+      }
+      calls::query_stream(scene_, context, rays.data(), static_cast<unsigned>(count));
+      first += count;
+    }
+  }
+
+  template <class Packet>
+  void packets(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
+    constexpr std::size_t width = calls::width<Packet>;
+    Packet packet{};
+    alignas(64) std::array<int, width> valid{};
+    for (; first < last; first += width) {
+      const std::size_t count = std::min(width, last - first);
+      write_packet(first, count, packet);
+      for (std::size_t lane = 0; lane < width; ++lane) valid[lane] = lane < count ? -1 : 0;
+      calls::query(valid.data(), scene_, context, packet);
+    }
+  }
+
+  template <class Packet>
+  void packet_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
+    constexpr std::size_t width = calls::width<Packet>;
+    std::array<Packet, stream / width> sent{};
+    while (first < last) {
+      unsigned filled = 0;
+      for (; filled < sent.size() && first < last; first += width)
+        write_packet(first, std::min(width, last - first), sent[filled++]);
+      calls::query_stream(scene_, context, sent.data(), filled);
+    }
+  }
+
+  RTCScene scene_;
+  std::span<const sim::Ray> rays_;
+  EmbreeRayMaker maker_;
+};
+
 }  // namespace
 
-/// Writes `count` rays from number `first` on into a packet. The other lanes are inactive as streams require: their
-/// rays end before they start.
-template <class Packet>
-void EmbreeTracer::write_packet(std::size_t first, std::size_t count, Packet& packet) const {
-  auto& rays = calls::ray_of(packet);
-  for (std::size_t lane = 0; lane < count; ++lane)
-    maker_.write(rays_[first + lane], static_cast<unsigned>(first + lane), rays, lane);
-  for (std::size_t lane = count; lane < calls::width<Packet>; ++lane) {
-    maker_.write(rays_[first], static_cast<unsigned>(first), rays, lane);
-    rays.tfar[lane] = -1;
-  }
-  calls::clear_hit(packet);
-}
-
-template <class RayHit>
-void EmbreeTracer::single_rays(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
-  RayHit ray{};
-  for (; first < last; ++first) {
-    maker_.write(rays_[first], static_cast<unsigned>(first), calls::ray_of(ray));
-    calls::clear_hit(ray);
-    calls::query(scene_, context, ray);
-  }
-}
-
-template <class RayHit>
-void EmbreeTracer::ray_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
-  std::array<RayHit, stream> rays{};
-  while (first < last) {
-    const std::size_t count = std::min(stream, last - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      maker_.write(rays_[first + i], static_cast<unsigned>(first + i), calls::ray_of(rays[i]));
-      calls::clear_hit(rays[i]);
-    }
-    calls::query_stream(scene_, context, rays.data(), static_cast<unsigned>(count));
-    first += count;
-  }
-}
-
-template <class Packet>
-void EmbreeTracer::packets(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
-  constexpr std::size_t width = calls::width<Packet>;
-  Packet packet{};
-  alignas(64) std::array<int, width> valid{};
-  for (; first < last; first += width) {
-    const std::size_t count = std::min(width, last - first);
-    write_packet(first, count, packet);
-    for (std::size_t lane = 0; lane < width; ++lane) valid[lane] = lane < count ? -1 : 0;
-    calls::query(valid.data(), scene_, context, packet);
-  }
-}
-
-template <class Packet>
-void EmbreeTracer::packet_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
-  constexpr std::size_t width = calls::width<Packet>;
-  std::array<Packet, stream / width> sent{};
-  while (first < last) {
-    unsigned filled = 0;
-    for (; filled < sent.size() && first < last; first += width)
-      write_packet(first, std::min(width, last - first), sent[filled++]);
-    calls::query_stream(scene_, context, sent.data(), filled);
-  }
-}
-
-template <class RayHit, class Packet8, class Packet16>
-void EmbreeTracer::trace_as(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
-  switch (mode_.rays) {
-    case EmbreeRays::one:
-      return single_rays<RayHit>(first, last, context);
-    case EmbreeRays::packet_8:
-      return packets<Packet8>(first, last, context);
-    case EmbreeRays::packet_16:
-      return packets<Packet16>(first, last, context);
-    case EmbreeRays::stream_of_rays:
-      return ray_streams<RayHit>(first, last, context);
-    case EmbreeRays::stream_of_packets:
-      return packet_streams<Packet8>(first, last, context);
-  }
-}
-
-void EmbreeTracer::trace(std::size_t first, std::size_t last, std::vector<DiscTally>& tallies) const {
+void trace(RTCScene scene, std::span<const sim::Ray> rays, const sim::Sphere& around, const EmbreeMode& mode,
+           const RayBlock& block, std::vector<DiscTally>& tallies) {
   const FlushDenormals flush;
-  FilterData collecting{.context = {}, .rays = rays_.data(), .tallies = tallies.data()};
+  FilterData collecting{.context = {}, .rays = rays.data(), .tallies = tallies.data()};
   rtcInitIntersectContext(&collecting.context);
   collecting.context.filter = collect_and_refuse;
-  if (mode_.coherent) collecting.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  if (mode_.query == EmbreeQuery::intersect)
-    trace_as<RTCRayHit, RTCRayHit8, RTCRayHit16>(first, last, collecting.context);
+  if (mode.coherent) collecting.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  const EmbreeTracer tracer(scene, rays, around);
+  if (mode.query == EmbreeQuery::intersect)
+    tracer.trace<RTCRayHit, RTCRayHit8, RTCRayHit16>(mode.rays, block.first, block.last, collecting.context);
   else
-    trace_as<RTCRay, RTCRay8, RTCRay16>(first, last, collecting.context);
+    tracer.trace<RTCRay, RTCRay8, RTCRay16>(mode.rays, block.first, block.last, collecting.context);
 }
 
 }  // namespace detp::validate

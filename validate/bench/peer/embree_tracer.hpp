@@ -1,13 +1,31 @@
 #pragma once
 
+#include <embree3/rtcore.h>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "embree_mode.hpp"
-#include "embree_rays.hpp"
+#include "embree_peer.hpp"
 
+/// Rays through Embree's scene of discs.
 namespace detp::validate {
+
+/// Stores four floats at once, to an address divisible by 16. Embree loads the four floats as a vector. Its
+/// documentation warns that four single stores would stall this load.
+inline void store_four(float* to, float a, float b, float c, float d) {
+#if defined(__SSE2__)
+  _mm_store_ps(to, _mm_setr_ps(a, b, c, d));
+#else
+  to[0] = a;
+  to[1] = b;
+  to[2] = c;
+  to[3] = d;
+#endif
+}
 
 /// The sums of one disc. They lie together, so that a hit touches only one cache line.
 struct DiscTally {
@@ -15,34 +33,15 @@ struct DiscTally {
   std::uint32_t hits = 0;
 };
 
-/// Traces rays through a scene of discs and adds up the power and hits of each disc.
-class EmbreeTracer {
- public:
-  EmbreeTracer(RTCScene scene, std::span<const sim::Ray> rays, const sim::Sphere& around, const EmbreeMode& mode)
-      : scene_(scene), rays_(rays), maker_(around), mode_(mode) {}
-
-  /// Traces rays first … last - 1 and adds their hits to `tallies`, which has one element for each disc. Thread-safe if
-  /// each thread has its own tallies.
-  void trace(std::size_t first, std::size_t last, std::vector<DiscTally>& tallies) const;
-
- private:
-  template <class Packet>
-  void write_packet(std::size_t first, std::size_t count, Packet& packet) const;
-  template <class RayHit>
-  void single_rays(std::size_t first, std::size_t last, RTCIntersectContext& context) const;
-  template <class RayHit>
-  void ray_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const;
-  template <class Packet>
-  void packets(std::size_t first, std::size_t last, RTCIntersectContext& context) const;
-  template <class Packet>
-  void packet_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const;
-  template <class RayHit, class Packet8, class Packet16>
-  void trace_as(std::size_t first, std::size_t last, RTCIntersectContext& context) const;
-
-  RTCScene scene_;
-  std::span<const sim::Ray> rays_;
-  EmbreeRayMaker maker_;
-  EmbreeMode mode_;
+/// A number of successive rays.
+struct RayBlock {
+  std::size_t first;
+  std::size_t last;  ///< behind the last ray
 };
+
+/// Traces a block of the rays and adds their hits to `tallies`, which has one element for each disc. `around` is a sphere around all
+/// discs. Thread-safe if each thread has its own tallies.
+void trace(RTCScene scene, std::span<const sim::Ray> rays, const sim::Sphere& around, const EmbreeMode& mode,
+           const RayBlock& block, std::vector<DiscTally>& tallies);
 
 }  // namespace detp::validate

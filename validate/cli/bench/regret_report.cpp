@@ -13,17 +13,9 @@ using validate::ChoicePlace;
 using validate::ChoiceRow;
 using validate::Figures;
 using validate::RegretFigures;
-using validate::RegretResult;
 using validate::RegretRow;
 using validate::RegretSummary;
-using validate::RegretWorkload;
 using validate::TierSummary;
-
-std::string title_of(const RegretWorkload& workload) {
-  return fmt::format("{}, {}, {:g} rays{}, radius {:g}%", workload.scene, name(workload.field), workload.rays,
-                     workload.samples > 0 ? fmt::format(", {:g} samples", workload.samples) : "",
-                     100 * workload.radius);
-}
 
 std::string number_text(double number, bool at_least) { return fmt::format("{}{:.3g}", at_least ? ">= " : "", number); }
 
@@ -56,14 +48,14 @@ std::string regret_table(const RegretSummary& summary, const Screen& screen) {
                    {.head = "worst", .group = held_out}});
   for (const TierSummary& tier : summary.tiers) table.add(regret_cells(tier.tier, "", tier.regret));
   for (std::size_t i = 0; i < summary.baselines.size(); ++i) {
-    const auto candidate = candidate_of(i, summary.baselines[i]);
+    const auto candidate = validate::candidate_of(i, summary.baselines[i]);
     table.add(regret_cells(std::string(validate::baselines()[i].text), candidate ? title(*candidate) : "",
                            summary.baselines[i].regret));
   }
   return table.text(screen);
 }
 
-std::string summary_text(const RegretSummary& summary, const Screen& screen) {
+std::string regret_summary_text(const RegretSummary& summary, const Screen& screen) {
   std::string text = fmt::format("{}{}, {} workload{}\n", summary.threads == 1 ? "" : "At most ",
                                  threads_text(summary.threads), summary.rows, summary.rows == 1 ? "" : "s");
   if (summary.rows == 0) return text;
@@ -87,8 +79,8 @@ std::string summary_text(const RegretSummary& summary, const Screen& screen) {
   return text + "\n";
 }
 
-std::string worst_text(const RegretResult& regret, const Screen& screen) {
-  const auto places = validate::worst_choices(regret.rows, most_worst_choices);
+std::string worst_text(const validate::RegretResult& regret, const Screen& screen) {
+  const auto places = validate::worst_choices(regret.rows, validate::most_worst_choices);
   if (places.empty()) return "";
   std::string text = fmt::format("The {} largest regrets\n", places.size());
   for (const ChoicePlace& place : places) {
@@ -108,40 +100,24 @@ std::string worst_text(const RegretResult& regret, const Screen& screen) {
   return text + "\n";
 }
 
-std::string to_text(const RegretResult& regret, const std::vector<RegretSummary>& summaries,
-                    const std::vector<std::string>& missing, const Screen& screen) {
-  std::string text;
-  for (const RegretSummary& summary : summaries) text += summary_text(summary, screen);
-  text += worst_text(regret, screen);
-  text +=
+}  // namespace
+
+Result report(const validate::RegretAnswer& answer, const Screen& screen) {
+  Result result;
+  result.json = json_of(validate::regret_fields(), answer);
+  for (const RegretSummary& summary : answer.summaries) result.text += regret_summary_text(summary, screen);
+  result.text += worst_text(answer.result, screen);
+  result.text +=
       legend(screen,
              "regret: seconds of the candidate over seconds of the best of all that were tried. mean: geometric mean. "
              "p95: 95 % of the workloads have at most this. >=: at least; some runs were abandoned and count with "
              "the time after which they were. radius: of the discs, % of the scene's longest side.");
-  const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
-  for (const std::string& why : missing) add(fmt::format("left out  {}", why));
-  for (const validate::RegretSkip& skip : regret.skipped)
-    add(fmt::format("skipped   {}: {}", title_of(skip.workload), skip.why));
-  return text;
-}
-
-}  // namespace
-
-Result report_regret(const RegretResult& regret, const std::vector<int>& threads,
-                     const std::vector<std::string>& missing, const Screen& screen) {
-  std::vector<RegretSummary> summaries;
-  for (const int number : threads) summaries.push_back(validate::summarise(regret.rows, number));
-  Json skipped = Json::array();
-  for (const validate::RegretSkip& skip : regret.skipped)
-    skipped.push_back({{"workload", title_of(skip.workload)}, {"why", skip.why}});
-  Result result;
-  result.json = {{"rows", regret_rows_json(regret, summaries)},
-                 {"summary", regret_summary_json(regret, summaries)},
-                 {"skipped", std::move(skipped)},
-                 {"left_out", missing}};
-  result.text = to_text(regret, summaries, missing, screen);
-  result.csv = regret_rows_csv(regret, summaries);
-  if (regret.stopped) result.stopped = {regret.done, regret.workloads, "workloads"};
+  result.text += left_out_text(answer.set, answer.result, screen);
+  result.text += wrapped("costs     " + answer.costs.origin, screen.text_width(), 10);
+  Table table(columns_of(validate::tier_fields()));
+  for (const validate::TierRow& row : tier_rows(answer)) table.add(cells_of(validate::tier_fields(), row));
+  result.csv = table.csv();
+  if (answer.result.stopped) result.stopped = {answer.result.done, answer.result.workloads, "workloads"};
   return result;
 }
 

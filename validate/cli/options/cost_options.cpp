@@ -8,9 +8,6 @@
 #include <vector>
 
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/validate/calibration/built_in_costs.hpp"
-#include "detp/validate/calibration/calibration_file.hpp"
-#include "detp/validate/calibration/probe.hpp"
 #include "value_lists.hpp"
 
 namespace detp::cli {
@@ -26,34 +23,6 @@ const UnitCostTerm& named(std::string_view name) {
   for (const UnitCostTerm& one : unit_cost_terms)
     if (one.symbol == name) return one;
   throw std::invalid_argument(fmt::format("there is no unit cost {}; there are {}", detp::quoted(name), symbols()));
-}
-
-CostsInUse built_in() {
-  return {
-      .simd = validate::built_in_unit_costs(Engine::simd),
-      .plain = validate::built_in_unit_costs(Engine::plain),
-      .origin = "of each operation: built in, measured on another machine; detp calibrate measures those of this one",
-      .built_in = true};
-}
-
-CostsInUse calibrated(const validate::StoredCalibration& stored) {
-  return {.simd = stored.simd,
-          .plain = stored.plain,
-          .origin = stored.probe
-                        ? "of each operation: built in, scaled by a probe of this machine; detp calibrate knows more"
-                        : fmt::format("of each operation: of this machine, calibrated {} (median error {:.2g} %)",
-                                      stored.date, 100 * stored.left_out_median_error),
-          .relative_error = stored.relative_error(),
-          .doubt = stored.doubt()};
-}
-
-/// The stored calibration, unless it is missing, broken or of another machine.
-CostsInUse stored_or_built_in(const CommonOptions& common) {
-  if (common.ranks == nullptr) validate::probe_once();  // on several processes, each might find other costs
-  std::string why_not;
-  const auto stored = validate::stored_calibration(&why_not);
-  if (!why_not.empty()) note(common, fmt::format("{}; not used; detp calibrate makes a new one", why_not));
-  return stored ? calibrated(*stored) : built_in();
 }
 
 }  // namespace
@@ -85,24 +54,6 @@ std::optional<UnitCosts> parse_unit_costs(const std::string& text) {
   return costs;
 }
 
-nlohmann::ordered_json to_json(const UnitCosts& costs) {
-  nlohmann::ordered_json json;
-  for (const UnitCostTerm& one : unit_cost_terms) json[std::string(one.symbol)] = costs.*one.cost;
-  return json;
-}
-
-nlohmann::ordered_json to_json(const CostTable& costs) {
-  if (costs.of_technique == CostTable(costs.of_technique.front()).of_technique)
-    return to_json(costs.of_technique.front());
-  nlohmann::ordered_json json;
-  for (const Technique technique : exact_techniques) {
-    nlohmann::ordered_json& of_one = json[std::string(name(technique))] = nlohmann::ordered_json::object();
-    for (const UnitCostTerm& one : unit_cost_terms)
-      if (const double cost = costs[technique].*one.cost; cost > 0) of_one[std::string(one.symbol)] = cost;
-  }
-  return json;
-}
-
 std::string zero_costs(const UnitCosts& costs) {
   std::string list;
   for (const UnitCostTerm& one : unit_cost_terms)
@@ -110,7 +61,7 @@ std::string zero_costs(const UnitCosts& costs) {
   return list;
 }
 
-void note_doubt(const CostsInUse& costs, const CommonOptions& common) {
+void note_doubt(const validate::CostsInUse& costs, const CommonOptions& common) {
   if (costs.doubt.empty()) return;
   note(common,
        fmt::format(
@@ -130,20 +81,13 @@ void CostOptions::add_calibration_to(CLI::App& command) {
       "like them) or a file that it wrote; default: auto");
 }
 
+validate::CostRequest CostOptions::request(const CommonOptions& common) const {
+  // On several processes, each probe might find other costs.
+  return {.given = parse_unit_costs(costs_), .calibration = calibration_, .may_probe = common.ranks == nullptr};
+}
+
 CostsInUse CostOptions::costs(const CommonOptions& common) const {
-  if (const auto given = parse_unit_costs(costs_)) {
-    CostsInUse as_given{.simd = *given, .plain = *given, .origin = "of each operation, as given, on one thread"};
-    as_given.plain.engine = Engine::plain;
-    return as_given;
-  }
-  if (calibration_ == "none") return built_in();
-  if (calibration_ == "auto") return stored_or_built_in(common);
-  const validate::StoredCalibration stored = validate::read_calibration(calibration_);
-  const std::string differs = validate::difference(stored.key, validate::this_machine());
-  if (!differs.empty())
-    throw std::invalid_argument(fmt::format(
-        "{} is of another machine or program: {}; make one here with detp calibrate", calibration_, differs));
-  return calibrated(stored);
+  return validate::costs_in_use(request(common), [&](const std::string& notice) { note(common, notice); });
 }
 
 }  // namespace detp::cli

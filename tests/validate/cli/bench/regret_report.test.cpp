@@ -9,10 +9,11 @@ namespace detp::support {
 namespace {
 
 cli::Result report_of(std::vector<validate::RegretRow> rows, const std::vector<int>& threads = {1}) {
-  validate::RegretResult regret;
-  regret.rows = std::move(rows);
-  regret.workloads = regret.done = regret.rows.size();
-  return cli::report_regret(regret, threads, {"sponza: not here"}, {});
+  validate::RegretAnswer answer{.set = {{}, {"sponza: not here"}}, .threads = threads};
+  answer.result.rows = std::move(rows);
+  answer.result.workloads = answer.result.done = answer.result.rows.size();
+  answer.summarise_all();
+  return cli::report(answer, {});
 }
 
 validate::RegretRow at_least(validate::RegretRow row) {

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "detp/validate/calibration/sum_costs.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/choice/candidate_json.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/choice/plan.hpp"

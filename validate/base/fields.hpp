@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
-#include "detp/validate/base/json.hpp"
+#include "json.hpp"
 
 /// The fields of an answer, listed once. JSON, the columns of tables and the page that explains them come from the list.
 namespace detp::validate {
@@ -86,6 +86,12 @@ struct Field {
 template <class Answer>
 using Fields = std::vector<Field<Answer>>;
 
+template <class Answer>
+[[nodiscard]] Fields<Answer> operator+(Fields<Answer> left, const Fields<Answer>& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
 /// Fields of a part of the answer.
 template <class Answer, class Part, class PartOf>
 [[nodiscard]] Fields<Answer> fields_of_part(const Fields<Part>& fields, PartOf part) {
@@ -141,11 +147,16 @@ template <class Answer>
 
 /// What a list of fields says of one.
 struct FieldText {
-  std::string name;
+  std::string name;  ///< empty: of tables alone
   std::string unit;
   std::string meaning;
   Columns columns;
 };
+[[nodiscard]] inline std::vector<FieldText> operator+(std::vector<FieldText> left,
+                                                      const std::vector<FieldText>& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
 
 template <class Answer>
 [[nodiscard]] std::vector<FieldText> describe_fields(const Fields<Answer>& fields) {

@@ -1,4 +1,4 @@
-#include "detp/validate/regret/regret_workloads.hpp"
+#include "detp/validate/bench/workload.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "detp/validate/calibration/sum_costs.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
 
 #include <doctest/doctest.h>
 
@@ -39,5 +39,20 @@ TEST_SUITE("identity") {
     CHECK(validate::costs_of_sums(costs)[Technique::octree] == costs[Technique::octree]);
     const CostTable plain = validate::built_in_unit_costs(Engine::plain);
     CHECK(validate::costs_of_sums(plain) == plain);
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("built-in costs are nanoseconds by their symbols; what is not named is 0, but for the touching of memory") {
+    const UnitCosts grid = validate::built_in_unit_costs(Engine::plain)[Technique::grid];
+    CHECK(grid.index_test == 3.34e-9);
+    CHECK(grid.start == doctest::Approx(872e-9));
+    CHECK(grid.streamed == 0);
+    for (const Engine engine : {Engine::simd, Engine::plain})
+      for (const Technique technique : exact_techniques) {
+        const UnitCosts costs = validate::built_in_unit_costs(engine)[technique];
+        CHECK(costs.touch == doctest::Approx(0.054e-9));
+        CHECK(costs.hit > 0);
+      }
   }
 }
