@@ -11,7 +11,7 @@
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "detp/validate/accuracy/accuracy_costs.hpp"
+#include "detp/validate/whole/accuracy_costs.hpp"
 
 namespace detp::cli {
 namespace {
