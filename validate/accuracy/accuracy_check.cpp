@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "accuracy_json.hpp"
+#include "accuracy_state.hpp"
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
@@ -21,10 +21,6 @@ namespace detp::validate {
 namespace {
 
 constexpr std::size_t most_samples_kept = 10'000;  // of each rerun
-
-std::size_t whole_rays(const AccuracyPoint& point) {
-  return static_cast<std::size_t>(std::max(2.0, std::ceil(point.rays)));
-}
 
 /// Σ w (a - scale b)².
 double square_between(const std::vector<double>& a, const std::vector<double>& b, const std::vector<double>& weights,
@@ -45,8 +41,7 @@ std::optional<double> error_of(const std::vector<double>& found, const Reference
 }
 
 JudgedSamples judged_in(const sim::Scene& scene, const AccuracyPilotOptions& options, std::size_t most) {
-  if (options.reference != nullptr) return options.reference->judged;
-  return options.weights.empty() ? judged_samples(scene, most) : judged_samples(scene, options.weights, most);
+  return options.reference != nullptr ? options.reference->judged : judged_samples(scene, most, options.weights);
 }
 
 /// Nothing without a reference.
@@ -80,13 +75,14 @@ TimedEstimate timed_gather(const ReplicateMaker& maker, const sim::Scene& scene,
 }
 
 TimedEstimate timed_estimate(ReplicateMaker& maker, const sim::Scene& scene, const JudgedSamples& judged,
-                             const AccuracyPoint& point, std::uint64_t seed) {
-  if (point.estimator == sim::Estimator::gather) return timed_gather(maker, scene, judged, whole_rays(point), seed);
-  if (point.radius > 0) maker.decide_overshoot();
+                             const AccuracySetting& setting, double rays, std::uint64_t seed) {
+  const auto count = static_cast<std::size_t>(std::max(2.0, std::ceil(rays)));
+  if (setting.estimator == sim::Estimator::gather) return timed_gather(maker, scene, judged, count, seed);
+  if (setting.radius > 0) maker.decide_overshoot();
   sim::Stopwatch watch;
-  TimedEstimate run{.paths = maker.trace(whole_rays(point), seed, point.radius), .irradiance = {}, .variance = {}};
+  TimedEstimate run{.paths = maker.trace(count, seed, setting.radius), .irradiance = {}, .variance = {}};
   run.trace_seconds = maker.caster_seconds() + watch.lap();
-  const auto all = maker.estimate(run.paths, scene.samples, point.setting()).irradiance;
+  const auto all = maker.estimate(run.paths, scene.samples, setting).irradiance;
   run.seconds = run.trace_seconds + watch.lap();
   run.irradiance = judged.of_all(all);
   return run;
@@ -125,12 +121,7 @@ struct RerunTask {
   double rays = 0;
   std::uint64_t seed = 0;
 };
-struct RerunResult {
-  double seconds = 0;
-  std::vector<double> irradiance;  ///< at the judged samples
-};
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RerunTask, setting, rays, seed)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RerunResult, seconds, irradiance)
 
 /// Makes reruns on one process or on ranks.
 class RerunMaker {
@@ -147,27 +138,23 @@ class RerunMaker {
     return options_.ranks == nullptr ? 1 : static_cast<std::uint64_t>(options_.ranks->count());
   }
 
-  /// With the seeds first … last - 1.
-  [[nodiscard]] std::vector<RerunResult> make(const AccuracyPoint& point, std::uint64_t first, std::uint64_t last) {
+  /// With the seeds first … last - 1; without errors.
+  [[nodiscard]] std::vector<AccuracyRerun> make(const AccuracyPoint& point, std::uint64_t first, std::uint64_t last) {
     std::vector<std::string> tasks;
     for (std::uint64_t seed = first; seed < last; ++seed)
       tasks.push_back(json_bytes(RerunTask{point.setting(), point.rays, seed}));
-    std::vector<RerunResult> results;
-    for (const std::string& result : farm_.all(tasks)) results.push_back(from_json_bytes<RerunResult>(result));
-    return results;
+    std::vector<AccuracyRerun> runs;
+    for (const std::string& run : farm_.all(tasks)) runs.push_back(from_json_bytes<AccuracyRerun>(run));
+    return runs;
   }
 
   void serve() { farm_.serve(); }
 
  private:
-  [[nodiscard]] RerunResult make(const RerunTask& task) {
+  [[nodiscard]] AccuracyRerun make(const RerunTask& task) {
     ReplicateMaker maker(scene_, options_.front_facing, options_.threads, options_.stop);
-    const AccuracyPoint point{.estimator = task.setting.estimator,
-                              .rays = task.rays,
-                              .radius = task.setting.radius,
-                              .nearest = task.setting.nearest};
-    TimedEstimate run = timed_estimate(maker, scene_, judged_, point, task.seed);
-    return {run.seconds, std::move(run.irradiance)};
+    TimedEstimate run = timed_estimate(maker, scene_, judged_, task.setting, task.rays, task.seed);
+    return {.seed = task.seed, .seconds = run.seconds, .irradiance = std::move(run.irradiance)};
   }
 
   sim::Scene& scene_;
@@ -185,20 +172,22 @@ AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, doub
   const sim::DefaultFloatingPoint mode;
   ReplicateMaker maker(scene, options.front_facing, options.threads, options.stop);
   const JudgedSamples judged = judged_in(scene, options, scene.samples.size());
-  const TimedEstimate whole = timed_estimate(maker, scene, judged, point, options.seed);
-  return {.noise = std::sqrt(noise_squared(maker, scene, options, judged, point, whole) / mean_square),
+  const TimedEstimate whole = timed_estimate(maker, scene, judged, point.setting(), point.rays, options.seed);
+  return {.point = point,
+          .noise = std::sqrt(noise_squared(maker, scene, options, judged, point, whole) / mean_square),
           .seconds = whole.seconds,
           .trace_seconds = whole.trace_seconds,
-          .rays = point.estimator == sim::Estimator::gather ? point.rays : static_cast<double>(whole.paths.rays.size()),
+          .rays = point.gathers() ? point.rays : static_cast<double>(whole.paths.rays.size()),
           .error = error_of(whole.irradiance, options.reference, mean_square),
           .share_within = share_within(whole.irradiance, options.reference, within * std::sqrt(mean_square))};
 }
 
-AccuracyPilot with_check(AccuracyPilot pilot, const AccuracyPoint& point, const AccuracyCheck& check) {
+AccuracyPilot with_check(AccuracyPilot pilot, const AccuracyCheck& check) {
+  const AccuracyPoint& point = check.point;
   const auto own = std::ranges::find(pilot.estimators, point.estimator, &EstimatorPilot::estimator);
-  if (own == pilot.estimators.end() || !(check.noise > 0) || point.estimator == sim::Estimator::gather) return pilot;
+  if (own == pilot.estimators.end() || !(check.noise > 0) || point.gathers()) return pilot;
   // Each ray of both says as much of the noise² of one ray.
-  const double ratio = std::pow(check.noise / point.noise, 2) * check.rays / point.rays;
+  const double ratio = std::pow(check.noise / point.noise.value, 2) * check.rays / point.rays;
   const double pooled = (own->noise_rays + ratio * check.rays) / (own->noise_rays + check.rays);
   for (SettingPilot& setting : own->settings) {
     setting.noise_squared_times_rays.mean *= pooled;
@@ -207,30 +196,30 @@ AccuracyPilot with_check(AccuracyPilot pilot, const AccuracyPoint& point, const 
   return pilot;
 }
 
-std::uint64_t check_seeds(std::uint64_t first, std::uint64_t last) {
-  require_count("number of seeds", static_cast<double>(last) - static_cast<double>(first) + 1, 2, 1e6);
-  return last - first + 1;
+void check(const RerunSeeds& seeds) {
+  require_count("number of seeds", static_cast<double>(seeds.last) - static_cast<double>(seeds.first) + 1, 2, 1e6);
 }
 
 std::vector<AccuracyRerun> rerun_accuracy(sim::Scene& scene, const AccuracyPoint& point, double mean_square,
-                                          std::uint64_t first, std::uint64_t last, const AccuracyPilotOptions& options,
-                                          std::vector<MadeRerun> made,
-                                          const std::function<void(const std::vector<MadeRerun>&)>& save) {
+                                          const RerunSeeds& seeds, const AccuracyPilotOptions& options,
+                                          std::vector<AccuracyRerun> made,
+                                          const std::function<void(const std::vector<AccuracyRerun>&)>& save) {
   const sim::DefaultFloatingPoint mode;
-  const std::uint64_t count = check_seeds(first, last);
+  check(seeds);
+  const std::uint64_t count = seeds.count();
   RerunMaker maker(scene, options);
   const JudgedSamples& judged = maker.judged();
   for (std::size_t i = 0; i < made.size(); ++i)
-    if (made.size() > count || made[i].seed != first + i || made[i].irradiance.size() != judged.samples.size())
+    if (made.size() > count || made[i].seed != seeds.first + i || made[i].irradiance.size() != judged.samples.size())
       throw std::invalid_argument("runs that were made with other seeds, or at other samples");
   try {
     while (made.size() < count) {
       if (options.progress)
         options.progress({"runs", static_cast<double>(made.size()) / static_cast<double>(count), 1});
-      const std::uint64_t next = first + made.size();
-      for (RerunResult& run : maker.make(point, next, std::min(first + count, next + maker.at_once()))) {
-        const auto error = error_of(run.irradiance, options.reference, mean_square);
-        made.push_back({first + made.size(), run.seconds, error, std::move(run.irradiance)});
+      const std::uint64_t next = seeds.first + made.size();
+      for (AccuracyRerun& run : maker.make(point, next, std::min(seeds.first + count, next + maker.at_once()))) {
+        run.error = error_of(run.irradiance, options.reference, mean_square);
+        made.push_back(std::move(run));
       }
       if (save) save(made);
     }
@@ -239,14 +228,13 @@ std::vector<AccuracyRerun> rerun_accuracy(sim::Scene& scene, const AccuracyPoint
   if (made.size() < 2) return {};
   const auto runs = static_cast<double>(made.size());
   std::vector<double> mean(judged.samples.size());
-  for (const MadeRerun& run : made)
+  for (const AccuracyRerun& run : made)
     for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += run.irradiance[i] / runs;
-  std::vector<AccuracyRerun> reruns;
-  for (const MadeRerun& run : made) {
+  for (AccuracyRerun& run : made) {
     const double square = square_between(run.irradiance, mean, judged.weights, 1) / mean_square;
-    reruns.push_back({run.seed, std::sqrt(square * runs / (runs - 1)), run.seconds, run.error});
+    run.noise = std::sqrt(square * runs / (runs - 1));
   }
-  return reruns;
+  return made;
 }
 
 void serve_reruns(sim::Scene& scene, const AccuracyPilotOptions& options) {

@@ -224,8 +224,7 @@ PilotMaker::PilotMaker(sim::Scene& scene, AccuracyPilotOptions options)
   if (!(edge_ > 0))
     throw std::invalid_argument("accuracy needs a mesh with triangles; " + scene.name + " has none with edges");
   judged_ = options_.reference != nullptr ? options_.reference->judged
-            : options_.weights.empty()    ? judged_samples(scene, samples_judged)
-                                          : judged_samples(scene, options_.weights, samples_judged);
+                                          : judged_samples(scene, samples_judged, options_.weights);
   const ReferenceOptions judge{.seed = options_.seed,
                                .patch_radius = patch_over_edge * edge_,
                                .front_facing = options_.front_facing,

@@ -7,11 +7,11 @@
 #include <stop_token>
 #include <vector>
 
-#include "accuracy_costs.hpp"
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/photons/light_ledger.hpp"
 #include "detp/sim/ranks/ranks.hpp"
 #include "detp/validate/statistics/statistics.hpp"
+#include "detp/validate/whole/accuracy_costs.hpp"
 #include "reference.hpp"
 #include "replicates.hpp"
 

@@ -53,55 +53,46 @@ class Ways {
     if (radius) point.radius = scale;
     if (own_.estimator == sim::Estimator::nearest)
       point.nearest = static_cast<int>(std::clamp(std::round(scale * rays), 3.0, 1e9));
-    point.noise = std::sqrt(noise_squared);
+    const double noise = std::sqrt(noise_squared);
     const double wide = std::exp(0.5 * spread_ * own_.noise_squared_error(scale));
-    point.noise_low = point.noise / wide;
-    point.noise_high = point.noise * wide;
-    point.bias = root(bias.mean);
-    point.bias_low = root(bias.mean - spread_ * bias.standard_error);
-    point.bias_high = root(bias.mean + spread_ * bias.standard_error);
-    const Estimate mean_bias = own_.mean_bias(scale);
-    point.mean_bias = mean_bias.mean;
-    point.mean_bias_error = mean_bias.standard_error;
-    const auto bias_squared = [&](double shift) { return std::max(0.0, bias.mean + shift * bias.standard_error); };
+    point.noise = {noise, noise / wide, noise * wide};
+    const double spread = spread_ * bias.standard_error;
+    point.bias = {root(bias.mean), root(bias.mean - spread), root(bias.mean + spread)};
+    point.mean_bias = own_.mean_bias(scale);
     const double expected = expected_square(bias);
     const double square = noise_squared + expected;
-    const double down = std::hypot(noise_squared - square_of(point.noise_low), expected - bias_squared(-spread_));
-    const double up =
-        std::hypot(square_of(point.noise_high) - noise_squared, std::max(0.0, bias_squared(spread_) - expected));
-    point.total = root(square);
-    point.total_low = root(square - down);
-    point.total_high = root(square + up);
+    const double down =
+        std::hypot(noise_squared - square_of(point.noise.low), expected - std::max(0.0, bias.mean - spread));
+    const double up = std::hypot(square_of(point.noise.high) - noise_squared,
+                                 std::max(0.0, std::max(0.0, bias.mean + spread) - expected));
+    point.total = {root(square), root(square - down), root(square + up)};
     point.noise_weak = own_.rare_photons(scale) < enough_rare_photons;
     point.trace_seconds = gathers() ? 0 : pilot_.trace.at(rays);
     const GrowingSeconds seconds = seconds_of(scale);
     point.seconds = seconds.at(rays);
     // The noise's share of total² is that of d ln total / d ln rays = -1/2 noise²/total².
     const double seconds_slope = (seconds.per_ray + 2 * seconds.per_ray_squared * rays) * rays / point.seconds;
-    const auto slope = [&](double noise, double total) {
-      return -0.5 * std::min(1.0, square_of(noise / total)) / seconds_slope;
-    };
-    point.slope = slope(point.noise, point.total);
-    point.slope_low = slope(point.noise, std::max(point.noise, point.total_low));
-    point.slope_high = slope(point.noise, point.total_high);
+    const auto slope = [&](double total) { return -0.5 * std::min(1.0, square_of(noise / total)) / seconds_slope; };
+    point.slope = {slope(point.total.value), slope(std::max(noise, point.total.low)), slope(point.total.high)};
     return point;
   }
 
   /// Nothing if no setting and number of rays reach the target.
   [[nodiscard]] std::optional<AccuracyPoint> reach(const AccuracyTarget& target) const {
-    switch (target.kind) {
-      case AccuracyTarget::Kind::noise:
-        return reach_noise(target.value);
-      case AccuracyTarget::Kind::total:
-        return reach_total(target.value);
-      case AccuracyTarget::Kind::seconds:
-        break;
-    }
-    return best_in(target.value);
+    using enum AccuracyTarget::Kind;
+    return target.kind == noise   ? reach_noise(target.value)
+           : target.kind == total ? reach_total(target.value)
+                                  : best_in(target.value);
   }
 
+  /// The setting with the least total error in that time.
   [[nodiscard]] AccuracyPoint best_in(double seconds) const {
-    return *most_accurate([&](double scale) { return seconds_of(scale).rays_in(seconds); });
+    std::optional<AccuracyPoint> best;
+    for (const double scale : scales_) {
+      const AccuracyPoint point = at(scale, seconds_of(scale).rays_in(seconds));
+      if (!best || point.total.value < best->total.value) best = point;
+    }
+    return *best;
   }
 
   [[nodiscard]] double least_bias() const { return root(expected_square(own_.bias_squared(least_biased()))); }
@@ -133,11 +124,11 @@ class Ways {
       const double rays = own_.noise_squared(scale, 1) / (noise * noise);
       if (rays > most_rays_) continue;
       const AccuracyPoint point = at(scale, rays);
-      const bool below = point.bias <= noise;
-      const bool best_below = best && best->bias <= noise;
+      const bool below = point.bias.value <= noise;
+      const bool best_below = best && best->bias.value <= noise;
       // the largest setting with a bias below the noise; else the one with the least bias
       if (!best || (below && (!best_below || point.seconds <= best->seconds)) ||
-          (!below && !best_below && point.bias < best->bias))
+          (!below && !best_below && point.bias.value < best->bias.value))
         best = point;
     }
     return best;
@@ -152,16 +143,6 @@ class Ways {
       if (rays > most_rays_) continue;
       const AccuracyPoint point = at(scale, rays);
       if (!best || point.seconds < best->seconds) best = point;
-    }
-    return best;
-  }
-
-  template <class Rays>
-  [[nodiscard]] std::optional<AccuracyPoint> most_accurate(const Rays& rays) const {
-    std::optional<AccuracyPoint> best;
-    for (const double scale : scales_) {
-      const AccuracyPoint point = at(scale, rays(scale));
-      if (!best || point.total < best->total) best = point;
     }
     return best;
   }
@@ -192,7 +173,7 @@ void take_the_best_of_ties(std::vector<AccuracyPoint>& ways, const Worse& worse)
   auto best = ways.begin();
   for (auto way = ways.begin(); way != ways.end(); ++way)
     if (is_tied(*way, ways.front()) && worse(*way) == worse(ways.front()) &&
-        std::pair(way->total, way->total_high) < std::pair(best->total, best->total_high))
+        std::pair(way->total.value, way->total.high) < std::pair(best->total.value, best->total.high))
       best = way;
   std::rotate(ways.begin(), best, best + 1);
 }
@@ -204,8 +185,9 @@ void take_what_is_better(AccuracyPlan& plan, const AccuracyPilot& pilot,
   std::optional<AccuracyPoint> better;
   for (const EstimatorPilot* own : allowed) {
     const AccuracyPoint point = Ways(pilot, *own, most_rays).best_in(plan.answer.seconds);
-    const double least = clearly * (better ? better->total : plan.answer.total);
-    if (point.estimator != plan.answer.estimator && reaches(point, plan.target) && point.total < least) better = point;
+    const double least = clearly * (better ? better->total.value : plan.answer.total.value);
+    if (point.estimator != plan.answer.estimator && reaches(point, plan.target) && point.total.value < least)
+      better = point;
   }
   if (!better) return;
   const auto same = std::ranges::find(plan.rivals, better->estimator, &AccuracyPoint::estimator);
@@ -217,11 +199,16 @@ void take_what_is_better(AccuracyPlan& plan, const AccuracyPilot& pilot,
 void mark_frontier(std::vector<AccuracyPoint>& points) {
   for (AccuracyPoint& one : points)
     one.on_frontier = std::ranges::none_of(points, [&](const AccuracyPoint& other) {
-      return other.seconds <= one.seconds && other.total_high < one.total_low;
+      return other.seconds <= one.seconds && other.total.high < one.total.low;
     });
 }
 
 }  // namespace
+
+std::string_view name(AccuracyTarget::Kind kind) {
+  using enum AccuracyTarget::Kind;
+  return kind == noise ? "noise" : kind == total ? "error" : "seconds";
+}
 
 void check(const AccuracyTarget& target, double most_rays) {
   if (target.kind == AccuracyTarget::Kind::seconds)
@@ -234,7 +221,7 @@ void check(const AccuracyTarget& target, double most_rays) {
 bool reaches(const AccuracyPoint& point, const AccuracyTarget& target) {
   constexpr double rounding = 1.001;
   if (target.kind == AccuracyTarget::Kind::seconds) return true;
-  return (target.kind == AccuracyTarget::Kind::noise ? point.noise : point.total) <= rounding * target.value;
+  return (target.kind == AccuracyTarget::Kind::noise ? point.noise : point.total).value <= rounding * target.value;
 }
 
 AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& target, double most_rays) {
@@ -263,14 +250,14 @@ AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& tar
   }
   // A noise target that one estimator meets with a bias below the noise is not answered by one with more bias.
   const auto worse = [&](const AccuracyPoint& one) {
-    return target.kind == AccuracyTarget::Kind::noise && one.bias > target.value;
+    return target.kind == AccuracyTarget::Kind::noise && one.bias.value > target.value;
   };
   std::ranges::sort(reached, [&](const AccuracyPoint& a, const AccuracyPoint& b) {
     if (worse(a) != worse(b)) return worse(b);
-    if (worse(a)) return a.total < b.total;
-    return target.kind == AccuracyTarget::Kind::seconds ? a.total < b.total : a.seconds < b.seconds;
+    if (worse(a)) return a.total.value < b.total.value;
+    return target.kind == AccuracyTarget::Kind::seconds ? a.total.value < b.total.value : a.seconds < b.seconds;
   });
-  std::ranges::sort(nearest, {}, &AccuracyPoint::total);
+  std::ranges::sort(nearest, {}, [](const AccuracyPoint& point) { return point.total.value; });
   plan.reached = !reached.empty();
   if (plan.reached && target.kind != AccuracyTarget::Kind::seconds) take_the_best_of_ties(reached, worse);
   std::vector<AccuracyPoint>& best = plan.reached ? reached : nearest;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <optional>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "accuracy_pilot.hpp"
@@ -15,35 +15,32 @@ struct AccuracyTarget {
   double value = 0.05;  ///< relative error, or seconds
 };
 
-/// One way to estimate, with its errors over the samples by area, relative to the root mean square irradiance.
+/// "noise", "error" or "seconds".
+[[nodiscard]] std::string_view name(AccuracyTarget::Kind kind);
+
+/// One way to estimate, with its errors over the samples by area, relative to the root mean square irradiance, and their intervals of 95 %.
 struct AccuracyPoint {
   sim::Estimator estimator = sim::Estimator::disc;
   double rays = 0;  ///< pieces of photon paths; of gather, backward paths of each sample
   double photons = 0;
-  double radius = 0;  ///< scene units; 0: not used
-  int nearest = 0;    ///< k; 0: not used
-  double noise = 0;
-  double noise_low = 0;  ///< of one run: its error without the bias, over the samples, lies within with 95 %
-  double noise_high = 0;
+  double radius = 0;        ///< scene units; 0: not used
+  int nearest = 0;          ///< k; 0: not used
+  RootInterval noise = {};  ///< of one run: its error without the bias, over the samples, lies within
   bool noise_weak = false;  ///< too few photons bring most of it (enough_rare_photons): its interval may not hold
-  double bias = 0;
-  double bias_low = 0;  ///< its interval of 95 %; 0: it may have none
-  double bias_high = 0;
-  double mean_bias = 0;        ///< signed: light gained or lost, relative to the mean irradiance
-  double mean_bias_error = 0;  ///< its standard error
-  /// √(noise² + the mean of bias², normal with its error and cut off below 0): a bias that is hardly known counts, so this may be above √(noise² + bias²).
-  double total = 0;
-  double total_low = 0;  ///< of one run, 95 %: both intervals, whose errors are independent
-  double total_high = 0;
+  RootInterval bias = {};   ///< from 0: there may be none
+  Estimate mean_bias = {};  ///< signed: light gained or lost, relative to the mean irradiance
+  /// √(noise² + the mean of bias², normal with its error and cut off below 0): a bias that is hardly known counts, so this may be above
+  /// √(noise² + bias²). Of one run: both intervals, whose errors are independent.
+  RootInterval total = {};
   double trace_seconds = 0;
   double seconds = 0;  ///< predicted, tracing included
   /// The total error changes as this power of the seconds, at this setting: d ln total / d ln seconds; its interval is that of the total
-  double slope = 0;
-  double slope_low = 0;
-  double slope_high = 0;
+  RootInterval slope = {};
   bool on_frontier = false;  ///< no other point is more accurate and faster, their intervals apart
 
   [[nodiscard]] AccuracySetting setting() const { return {estimator, radius, nearest}; }
+  /// It has backward paths instead of photons.
+  [[nodiscard]] bool gathers() const { return estimator == sim::Estimator::gather; }
   /// As SettingPilot::scale.
   [[nodiscard]] double scale() const { return radius > 0 ? radius : nearest > 0 ? nearest / rays : 1; }
 };

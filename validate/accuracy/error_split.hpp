@@ -51,12 +51,15 @@ struct ErrorSplit {
 [[nodiscard]] ErrorSplit split_error(std::span<const std::vector<double>> runs, const ReferenceValues& reference,
                                      double within = 0.05);
 
-/// A root of a square and its interval of about 95 %: Student's t for `runs` - 1 degrees of freedom.
+/// A value, as the root of a square, and its interval of about 95 %.
 struct RootInterval {
-  double value = 0;  ///< 0 if the square is below 0
+  double value = 0;
   double low = 0;
   double high = 0;
+
+  [[nodiscard]] double half_width() const { return 0.5 * (high - low); }
 };
+/// 0 if the square is below 0; by Student's t for `runs` - 1 degrees of freedom.
 [[nodiscard]] RootInterval root_of(const Estimate& square, std::size_t runs);
 
 }  // namespace detp::validate

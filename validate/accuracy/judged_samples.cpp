@@ -83,6 +83,14 @@ std::vector<double> area_weights(const sim::Scene& scene, Surfaces surfaces) {
   return weights;
 }
 
+std::vector<double> weights_by_area(std::span<const sim::Disc> discs) {
+  std::vector<double> weights;
+  double sum = 0;
+  for (const sim::Disc& disc : discs) sum += weights.emplace_back(disc.radius * disc.radius);
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
 std::vector<double> JudgedSamples::of_all(std::span<const double> values) const {
   std::vector<double> own;
   own.reserve(places.size());
@@ -100,8 +108,10 @@ void keep_named(std::vector<double>& weights, const sim::Mesh& mesh, std::span<c
   weights = std::move(kept);
 }
 
-JudgedSamples judged_samples(const sim::Scene& scene, std::span<const double> weights, std::size_t most) {
+JudgedSamples judged_samples(const sim::Scene& scene, std::size_t most, std::span<const double> weights) {
   constexpr std::uint64_t seed = 1;
+  std::vector<double> by_area;
+  if (weights.empty()) weights = by_area = area_weights(scene);
   JudgedSamples judged;
   judged.population =
       static_cast<std::size_t>(std::ranges::count_if(weights, [](double weight) { return weight > 0; }));
@@ -120,10 +130,6 @@ JudgedSamples judged_samples(const sim::Scene& scene, std::span<const double> we
   }
   for (double& weight : judged.weights) weight /= sum;
   return judged;
-}
-
-JudgedSamples judged_samples(const sim::Scene& scene, std::size_t most) {
-  return judged_samples(scene, area_weights(scene), most);
 }
 
 }  // namespace detp::validate

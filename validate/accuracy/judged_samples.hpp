@@ -27,6 +27,9 @@ enum class Surfaces {
 /// vertices. 0: the sample lies on none that count.
 [[nodiscard]] std::vector<double> area_weights(const sim::Scene& scene, Surfaces surfaces = Surfaces::without_mirrors);
 
+/// The discs' areas over their sum.
+[[nodiscard]] std::vector<double> weights_by_area(std::span<const sim::Disc> discs);
+
 /// Sets the weights of samples that are on none of the named faces to 0, and those of the others to a sum of 1. Throws as
 /// sim::samples_named.
 void keep_named(std::vector<double>& weights, const sim::Mesh& mesh, std::span<const sim::Sample> samples,
@@ -43,9 +46,9 @@ struct JudgedSamples {
   [[nodiscard]] std::vector<double> of_all(std::span<const double> values) const;
 };
 
-/// At most `most` (> 0) of the scene's samples, with these weights for all of them: always the same ones of the same number.
-[[nodiscard]] JudgedSamples judged_samples(const sim::Scene& scene, std::span<const double> weights, std::size_t most);
-/// With weights by area.
-[[nodiscard]] JudgedSamples judged_samples(const sim::Scene& scene, std::size_t most);
+/// At most `most` (> 0) of the scene's samples, with these weights for all of them (none: by area): always the same ones of the same
+/// number.
+[[nodiscard]] JudgedSamples judged_samples(const sim::Scene& scene, std::size_t most,
+                                           std::span<const double> weights = {});
 
 }  // namespace detp::validate

@@ -13,24 +13,21 @@ namespace {
 /// Whether an estimator is out of the question: far from the target, or from the fastest.
 bool is_out(const AccuracyPoint& way, const AccuracyPlan& plan) {
   constexpr double far = 4;
-  if (plan.target.kind == AccuracyTarget::Kind::seconds) return way.total_low > plan.answer.total_high;
+  if (plan.target.kind == AccuracyTarget::Kind::seconds) return way.total.low > plan.answer.total.high;
   if (plan.reached && way.seconds > far * plan.answer.seconds) return true;
-  return way.bias_low > plan.target.value && way.bias > plan.answer.bias;
+  return way.bias.low > plan.target.value && way.bias.value > plan.answer.bias.value;
 }
-
-/// Of the interval of the bias.
-double half_width(const AccuracyPoint& point) { return 0.5 * (point.bias_high - point.bias_low); }
 
 /// The answer, or the rival that is faster by the prediction, left out by a bias that may yet be below the target, and least known.
 const AccuracyPoint& least_known(const AccuracyPlan& plan, double wanted) {
   const AccuracyPoint* least = &plan.answer;
   if (plan.target.kind == AccuracyTarget::Kind::seconds) return *least;
   for (const AccuracyPoint& rival : plan.rivals) {
-    const bool left_out =
-        plan.target.kind == AccuracyTarget::Kind::total ? !reaches(rival, plan.target) : rival.bias > plan.target.value;
+    const bool left_out = plan.target.kind == AccuracyTarget::Kind::total ? !reaches(rival, plan.target)
+                                                                          : rival.bias.value > plan.target.value;
     const bool may_be_better =
-        left_out && rival.bias_low < plan.target.value && rival.seconds * clearly_slower < plan.answer.seconds;
-    if (may_be_better && half_width(rival) > std::max(wanted, half_width(*least))) least = &rival;
+        left_out && rival.bias.low < plan.target.value && rival.seconds * clearly_slower < plan.answer.seconds;
+    if (may_be_better && rival.bias.half_width() > std::max(wanted, least->bias.half_width())) least = &rival;
   }
   return *least;
 }
@@ -102,9 +99,9 @@ class Planner {
       found_.pilot = maker_.make(rays, paths, first ? nullptr : &found_.pilot);
       found_.plan = plan_accuracy(found_.pilot, target_, most_rays_);
       const AccuracyPoint& best = found_.plan->answer;
-      const double wanted = enough * (target_.kind == AccuracyTarget::Kind::seconds ? best.total : target_.value);
+      const double wanted = enough * (target_.kind == AccuracyTarget::Kind::seconds ? best.total.value : target_.value);
       const AccuracyPoint& open = least_known(*found_.plan, wanted);
-      if (half_width(open) <= wanted || rays > most_pilot_rays) return;
+      if (open.bias.half_width() <= wanted || rays > most_pilot_rays) return;
       const double by_reference = estimator_of(open).by_reference;
       const bool by_paths = by_reference > deciding_share && options_.reference == nullptr;
       const bool by_rays = by_reference < 1 - deciding_share;

@@ -17,7 +17,7 @@ PilotRadii::PilotRadii(const sim::Scene& scene, std::span<const std::size_t> pla
   std::vector<std::size_t> all(places.begin(), places.end());
   if (population < scene.samples.size()) {
     const std::vector<double> equal(scene.samples.size(), 1.0);
-    const JudgedSamples everywhere = judged_samples(scene, equal, most_for_median);
+    const JudgedSamples everywhere = judged_samples(scene, most_for_median, equal);
     all.insert(all.end(), everywhere.places.begin(), everywhere.places.end());
   }
   for (const std::size_t place : all) {

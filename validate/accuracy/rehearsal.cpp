@@ -155,8 +155,7 @@ void PilotMaker::rehearse(AccuracyPilot& pilot, const AccuracySetting& setting, 
                           double answer_rays) {
   const sim::DefaultFloatingPoint mode;
   if (options_.progress) options_.progress({"pilot: rehearsal", 0, 1});
-  const JudgedSamples more = options_.weights.empty() ? judged_samples(scene_, size.samples)
-                                                      : judged_samples(scene_, options_.weights, size.samples);
+  const JudgedSamples more = judged_samples(scene_, size.samples, options_.weights);
   std::vector<std::size_t> places;  // of both
   std::ranges::set_union(more.places, judged_.places, std::back_inserter(places));
   Rehearsal rehearsal(*this, setting, size.rays, places);

@@ -36,17 +36,22 @@ struct Column {
   std::string place = {};
 };
 
+/// Who has a field.
+enum class FieldPlace { json_and_tables, json_alone, tables_alone };
+
 /// One field of an answer. Tables have it under its name, unless it says otherwise.
 template <class Answer>
 struct Field {
   /// `value` of an answer: a member, or a function.
   template <class Value>
-  Field(std::string name, std::string unit, std::string meaning, Value value)
+  Field(std::string name, std::string unit, std::string meaning, Value value, FieldPlace place = {})
       : name(std::move(name)),
         unit(std::move(unit)),
         meaning(std::move(meaning)),
         value([value](const Answer& answer) { return json_value(std::invoke(value, answer)); }),
-        columns{{this->name}} {}
+        in_json(place != FieldPlace::tables_alone) {
+    if (place != FieldPlace::json_alone) columns = {{this->name}};
+  }
 
   /// The same field under these columns; none: it stands in JSON alone.
   [[nodiscard]] Field in(std::vector<Column> other) const {
@@ -77,7 +82,7 @@ struct Field {
   std::string unit;  ///< "s", "bytes"; empty for words, shares and numbers of things
   std::string meaning;
   std::function<Json(const Answer&)> value;
-  std::vector<Column> columns;
+  std::vector<Column> columns = {};
   std::function<Json(const Answer&, const Json& value)> cells =
       {};  ///< of the columns, by name; if it is set, columns have no places
   bool in_json = true;
@@ -90,6 +95,25 @@ template <class Answer>
 [[nodiscard]] Fields<Answer> operator+(Fields<Answer> left, const Fields<Answer>& right) {
   left.insert(left.end(), right.begin(), right.end());
   return left;
+}
+
+/// A value, then a member of it or a function of that, and so on; left out behind a pointer or an optional that is empty.
+template <class Value, class... Members>
+[[nodiscard]] Json value_at(const Value& value, const Members&... members) {
+  if constexpr (sizeof...(members) == 0)
+    return json_value(value);
+  else if constexpr (requires { *value; })
+    return value ? value_at(*value, members...) : left_out();
+  else
+    return [&](const auto& first, const auto&... rest) {
+      return value_at(std::invoke(first, value), rest...);
+    }(members...);
+}
+
+/// The value of a field that is a part of a part: at(&Plan::answer, &Point::seconds).
+template <class... Members>
+[[nodiscard]] auto at(Members... members) {
+  return [members...](const auto& answer) { return value_at(answer, members...); };
 }
 
 /// Fields of a part of the answer.

@@ -4,12 +4,31 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "detp/model/vocabulary/counts.hpp"
 #include "detp/sim/photons/light_ledger.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
-/// Counts, light and estimates as JSON, for checkpoints.
+/// Counts, light, estimates and values that may be missing as JSON, for checkpoints.
+namespace nlohmann {
+
+/// Null for nothing.
+template <class Value>
+struct adl_serializer<std::optional<Value>> {
+  static void to_json(json& json, const std::optional<Value>& value) {
+    if (value)
+      json = *value;
+    else
+      json = nullptr;
+  }
+  static void from_json(const json& json, std::optional<Value>& value) {
+    value = json.is_null() ? std::nullopt : std::optional(json.get<Value>());
+  }
+};
+
+}  // namespace nlohmann
+
 namespace detp {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Counts<std::uint64_t>, loaded, segments, cull_tests, culls, listed, visits,

@@ -4,7 +4,7 @@
 #include <functional>
 #include <stop_token>
 
-#include "detp/validate/answer/fields.hpp"
+#include "detp/validate/base/fields.hpp"
 #include "detp/validate/cli/options/common_options.hpp"
 #include "detp/validate/cli/text/result.hpp"
 

@@ -6,7 +6,7 @@
 #include "detp/model/optimum/best_ratio.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/ranked.hpp"
-#include "detp/validate/accuracy/accuracy_costs.hpp"
+#include "detp/validate/whole/accuracy_costs.hpp"
 #include "detp/validate/answer/parts.hpp"
 #include "detp/validate/calibration/sum_costs.hpp"
 #include "detp/validate/stopping/job_batches.hpp"

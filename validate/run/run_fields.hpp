@@ -1,6 +1,6 @@
 #pragma once
 
-#include "detp/validate/answer/fields.hpp"
+#include "detp/validate/base/fields.hpp"
 #include "run.hpp"
 
 /// The fields of the answer of `detp run`.

@@ -10,7 +10,7 @@
 #include "detp/model/rank/registry.hpp"
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "detp/validate/accuracy/accuracy_costs.hpp"
+#include "detp/validate/whole/accuracy_costs.hpp"
 
 namespace detp::validate {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "detp/sim/base/stopped.hpp"
-#include "detp/validate/answer/fields.hpp"
+#include "detp/validate/base/fields.hpp"
 #include "detp/validate/job/job.hpp"
 
 /// What is in a scene: what `detp scene` does.

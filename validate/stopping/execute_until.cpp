@@ -77,14 +77,6 @@ ExecutedUntil execute_until(const Plan& plan, const NextRays& next, std::vector<
   return execute_until(find, std::move(weights), target, options);
 }
 
-std::vector<double> weights_by_area(std::span<const sim::Disc> discs) {
-  std::vector<double> weights;
-  double sum = 0;
-  for (const sim::Disc& disc : discs) sum += weights.emplace_back(disc.radius * disc.radius);
-  for (double& weight : weights) weight /= sum;
-  return weights;
-}
-
 std::uint64_t StoredBatches::photon(std::size_t ray) const {
   if (ray == all_.rays.size()) return photons_;
   return all_.photons.empty() ? ray : all_.photons[ray];

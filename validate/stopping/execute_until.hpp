@@ -11,6 +11,7 @@
 #include "detp/sim/geometry/paths.hpp"
 #include "detp/sim/photons/light_ledger.hpp"
 #include "detp/sim/search/outcome.hpp"
+#include "detp/validate/accuracy/judged_samples.hpp"
 #include "detp/validate/choice/plan.hpp"
 #include "random_order.hpp"
 #include "run_until.hpp"
@@ -66,9 +67,6 @@ using SaveExecuted = std::function<void(const std::function<UntilState()>& state
 /// The same with a plan's technique and index, on its threads.
 [[nodiscard]] ExecutedUntil execute_until(const Plan& plan, const NextRays& next, std::vector<double> weights,
                                           const ErrorTarget& target, const UntilOptions& options = {});
-
-/// The discs' areas over their sum.
-[[nodiscard]] std::vector<double> weights_by_area(std::span<const sim::Disc> discs);
 
 /// Gives rays in memory batch by batch: in their order, not copied, or the photons in random order.
 class StoredBatches {

@@ -7,10 +7,10 @@
 #include <fstream>
 #include <string>
 
+#include "accuracy_costs.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/input_file.hpp"
 #include "detp/sim/technique/streamed.hpp"
-#include "detp/validate/accuracy/accuracy_costs.hpp"
 
 namespace detp::validate {
 namespace {

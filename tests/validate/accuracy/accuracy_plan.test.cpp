@@ -50,9 +50,9 @@ TEST_SUITE("plans of accuracy") {
   TEST_CASE("noise: the largest radius whose bias is below it, with the rays that the noise needs") {
     const AccuracyPlan plan = plan_accuracy(made_pilot(0.1), {Kind::noise, 0.05});
     CHECK(plan.reached);
-    CHECK(plan.answer.noise == doctest::Approx(0.05).epsilon(1e-6));
+    CHECK(plan.answer.noise.value == doctest::Approx(0.05).epsilon(1e-6));
     CHECK(plan.answer.radius == doctest::Approx(0.025).epsilon(0.05));  // 0.1 r = 0.05²
-    CHECK(plan.answer.bias <= 0.05);
+    CHECK(plan.answer.bias.value <= 0.05);
     CHECK(plan.answer.rays == doctest::Approx(0.2 / std::pow(plan.answer.radius * 0.05, 2)).epsilon(1e-3));
     CHECK(plan.answer.seconds == doctest::Approx(2 * per_ray * plan.answer.rays));
     CHECK(plan.answer.photons == doctest::Approx(0.5 * plan.answer.rays));
@@ -62,7 +62,7 @@ TEST_SUITE("plans of accuracy") {
     const AccuracyPilot pilot = made_pilot(0.1);
     const AccuracyPlan plan = plan_accuracy(pilot, {Kind::total, 0.05});
     CHECK(plan.reached);
-    CHECK(plan.answer.total == doctest::Approx(0.05).epsilon(1e-6));
+    CHECK(plan.answer.total.value == doctest::Approx(0.05).epsilon(1e-6));
     for (double radius = 0.01; radius < 0.024; radius *= 1.02) {
       const double rays = 0.2 / (radius * radius) / (0.05 * 0.05 - 0.1 * radius);
       CHECK(2 * per_ray * rays >= 0.99 * plan.answer.seconds);
@@ -75,7 +75,7 @@ TEST_SUITE("plans of accuracy") {
     CHECK_FALSE(plan.reached);
     CHECK(plan.floor == doctest::Approx(0.1));
     CHECK(plan.answer.radius == doctest::Approx(0.01));
-    CHECK(plan.answer.total == doctest::Approx(0.1 * std::sqrt(1.05)).epsilon(1e-3));
+    CHECK(plan.answer.total.value == doctest::Approx(0.1 * std::sqrt(1.05)).epsilon(1e-3));
     CHECK_FALSE(plan_accuracy(made_pilot(0), {Kind::total, 0.001}, 1e6).reached);
   }
 
@@ -83,20 +83,20 @@ TEST_SUITE("plans of accuracy") {
     const AccuracyPlan one = plan_accuracy(made_pilot(0.1), {Kind::seconds, 0.2});
     CHECK(one.answer.seconds == doctest::Approx(0.2).epsilon(1e-3));
     for (double radius = 0.01; radius <= 0.08; radius *= 1.02)
-      CHECK(std::sqrt(0.2 / (radius * radius * 1e5) + 0.1 * radius) >= 0.998 * one.answer.total);
+      CHECK(std::sqrt(0.2 / (radius * radius * 1e5) + 0.1 * radius) >= 0.998 * one.answer.total.value);
     const AccuracyPlan without = plan_accuracy(made_pilot(0), {Kind::seconds, 0.2});
     const AccuracyPlan twice = plan_accuracy(made_pilot(0), {Kind::seconds, 0.4});
     CHECK(without.answer.radius == doctest::Approx(0.08));
-    CHECK(twice.answer.total * std::sqrt(2.0) == doctest::Approx(without.answer.total).epsilon(1e-4));
+    CHECK(twice.answer.total.value * std::sqrt(2.0) == doctest::Approx(without.answer.total.value).epsilon(1e-4));
   }
 
   TEST_CASE("a bias that is hardly known counts in the total: bias² 0 ± s is 0.798 s in the mean, and 1 ± 0.01 is 1") {
     for (const double error : {1e-4, 1e-2}) {
       const AccuracyPoint unknown = plan_accuracy(made_pilot(0, error), {Kind::seconds, 1}).answer;
-      const double bias_squared = std::pow(unknown.total, 2) - std::pow(unknown.noise, 2);
+      const double bias_squared = std::pow(unknown.total.value, 2) - std::pow(unknown.noise.value, 2);
       CHECK(bias_squared == doctest::Approx(std::sqrt(2 / std::numbers::pi) * error).epsilon(1e-6));
-      CHECK(unknown.bias == 0);
-      CHECK(unknown.total <= unknown.total_high);
+      CHECK(unknown.bias.value == 0);
+      CHECK(unknown.total.value <= unknown.total.high);
     }
     const auto floor_of = [](double mean, double error) {
       AccuracyPilot pilot = made_pilot(0, error);
@@ -121,11 +121,11 @@ TEST_SUITE("plans of accuracy") {
     for (const double seconds : {0.1, 1.0, 10.0}) {
       const AccuracyPoint before = in(seconds / 1.01);
       const AccuracyPoint after = in(seconds * 1.01);
-      const double slope = std::log(after.total / before.total) / std::log(after.seconds / before.seconds);
+      const double slope = std::log(after.total.value / before.total.value) / std::log(after.seconds / before.seconds);
       const AccuracyPoint point = in(seconds);
-      CHECK(point.slope == doctest::Approx(slope).epsilon(1e-3));
-      CHECK(point.slope_low <= point.slope);
-      CHECK(point.slope <= point.slope_high);
+      CHECK(point.slope.value == doctest::Approx(slope).epsilon(1e-3));
+      CHECK(point.slope.low <= point.slope.value);
+      CHECK(point.slope.value <= point.slope.high);
     }
   }
 
@@ -185,7 +185,7 @@ TEST_SUITE("plans of accuracy") {
     pilot.estimators.push_back(biased);
     const AccuracyPlan plan = plan_accuracy(pilot, {Kind::noise, 0.05});
     CHECK(plan.answer.estimator == sim::Estimator::area_corrected);
-    CHECK(plan.answer.noise <= 0.05);
+    CHECK(plan.answer.noise.value <= 0.05);
   }
 
   TEST_CASE("a check with other noise counts by its rays, and the plan ranks again") {
@@ -195,11 +195,11 @@ TEST_SUITE("plans of accuracy") {
       return one;
     }();
     const AccuracyPlan plan = plan_accuracy(pilot, {Kind::noise, 0.05});
-    const AccuracyCheck check{.noise = 0.1, .rays = 3e5};
     AccuracyPoint of_check = plan.answer;
     of_check.rays = 3e5;
-    of_check.noise = 0.05;
-    const AccuracyPlan again = plan_accuracy(with_check(pilot, of_check, check), {Kind::noise, 0.05});
+    of_check.noise.value = 0.05;
+    const AccuracyCheck check{.point = of_check, .noise = 0.1, .rays = 3e5};
+    const AccuracyPlan again = plan_accuracy(with_check(pilot, check), {Kind::noise, 0.05});
     CHECK(again.answer.rays == doctest::Approx((1 + 3 * 4) / 4.0 * plan.answer.rays).epsilon(1e-6));
   }
 
@@ -209,7 +209,7 @@ TEST_SUITE("plans of accuracy") {
     for (SettingPilot& setting : pilot.estimators[0].settings) setting.rare_photons = 10;
     const AccuracyPoint weak = plan_accuracy(pilot, {Kind::noise, 0.05}).answer;
     CHECK(weak.noise_weak);
-    CHECK(weak.noise_high > 1.5 * weak.noise);
+    CHECK(weak.noise.high > 1.5 * weak.noise.value);
   }
 
   TEST_CASE("seconds of neighbours grow with the square of the rays; the rays in a time are found again") {
@@ -263,15 +263,15 @@ TEST_SUITE("long") {
                                          .reference = &reference};
       const AccuracyPilot pilot = with_equal_seconds(make_accuracy_pilot(scene, options));
       const AccuracyPoint answer = plan_accuracy(pilot, {Kind::total, 0.2}).answer;
-      CHECK(answer.noise_low < answer.noise);
-      CHECK(answer.noise < answer.noise_high);
+      CHECK(answer.noise.low < answer.noise.value);
+      CHECK(answer.noise.value < answer.noise.high);
       const AccuracyCheck check = check_accuracy(scene, answer, pilot.mean_square, options);
-      CHECK(check.error.value() > 0.7 * answer.total_low);
-      CHECK(check.error.value() < 1.3 * answer.total_high);
-      const auto runs = rerun_accuracy(scene, answer, pilot.mean_square, 1, 60, options);
+      CHECK(check.error.value() > 0.7 * answer.total.low);
+      CHECK(check.error.value() < 1.3 * answer.total.high);
+      const auto runs = rerun_accuracy(scene, answer, pilot.mean_square, {1, 60}, options);
       REQUIRE(runs.size() == 60);
       CHECK(std::ranges::count_if(runs, [&](const AccuracyRerun& one) {
-              return one.noise > answer.noise_low && one.noise < answer.noise_high;
+              return one.noise > answer.noise.low && one.noise < answer.noise.high;
             }) >= 52);
       CHECK(runs.front().seed == 1);
       CHECK(runs.back().seed == 60);
@@ -347,7 +347,7 @@ TEST_SUITE("identity") {
       const double promised = std::sqrt(pilot.estimators.front().noise_squared(scale, rays));
       const AccuracyPoint point{.estimator = estimator, .rays = rays, .radius = setting.radius};
       double square = 0;
-      const auto runs = rerun_accuracy(scene, point, pilot.mean_square, 1, 8, options);
+      const auto runs = rerun_accuracy(scene, point, pilot.mean_square, {1, 8}, options);
       for (const AccuracyRerun& run : runs) square += run.noise * run.noise / static_cast<double>(runs.size());
       CHECK(std::sqrt(square) == doctest::Approx(promised).epsilon(0.05));
     }

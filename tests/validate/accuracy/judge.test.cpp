@@ -111,7 +111,7 @@ TEST_SUITE("identity") {
     const sim::Scene cornell = sim::open_scene({.name = "@cornell", .samples = {}});
     std::vector<double> weights = area_weights(cornell);
     for (std::size_t i = 0; i < weights.size(); i += 2) weights[i] = 0;
-    const JudgedSamples judged = judged_samples(cornell, weights, 100);
+    const JudgedSamples judged = judged_samples(cornell, 100, weights);
     CHECK(judged.samples.size() == 100);
     CHECK(judged.population == weights.size() / 2);
     CHECK(std::accumulate(judged.weights.begin(), judged.weights.end(), 0.0) == doctest::Approx(1));
@@ -119,7 +119,7 @@ TEST_SUITE("identity") {
       CHECK(judged.places[i] % 2 == 1);
       CHECK(judged.samples[i].position == cornell.samples[judged.places[i]].position);
     }
-    CHECK(judged_samples(cornell, weights, 1'000'000).samples.size() == judged.population);
+    CHECK(judged_samples(cornell, 1'000'000, weights).samples.size() == judged.population);
   }
 
   TEST_CASE("paths cut to an overshoot are those that were traced with it") {

@@ -2,33 +2,28 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <iterator>
+#include <cmath>
 #include <stdexcept>
 
-#include "accuracy_report.hpp"
+#include "detp/model/vocabulary/checks.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/model/vocabulary/vocabulary.hpp"
-#include "detp/sim/base/memory.hpp"
-#include "detp/sim/base/stopped.hpp"
-#include "detp/sim/base/stopwatch.hpp"
-#include "detp/sim/base/threads.hpp"
-#include "detp/sim/files/disc_file.hpp"
-#include "detp/sim/open/open_scene.hpp"
-#include "detp/sim/photons/light_notes.hpp"
-#include "detp/sim/ranks/failures.hpp"
-#include "detp/validate/calibration/calibration_file.hpp"
-#include "detp/validate/calibration/costs_in_use.hpp"
+#include "detp/validate/accuracy/accuracy_report.hpp"
+#include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/options/value_lists.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
+#include "detp/validate/cli/text/messages.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
+#include "detp/validate/cli/text/table.hpp"
 #include "detp/validate/cli/text/words.hpp"
-#include "detp/validate/job/job.hpp"
-#include "detp/validate/stopping/execute_until.hpp"
 
 namespace detp::cli {
 namespace {
+
+using validate::AccuracyAnswer;
+using validate::AccuracyPoint;
+using validate::AccuracyTarget;
+using validate::percent;
 
 struct AccuracyOptions {
   std::string scene;
@@ -54,19 +49,10 @@ struct AccuracyOptions {
   bool resume = false;
 };
 
-constexpr double longest_check = 60;  // seconds; a longer answer is not run
-
-constexpr std::uint64_t seeds_apart = 1000;  // of pilots and of the check
-
-bool too_large(const validate::AccuracyPoint& point) {
-  constexpr double bytes_of_a_ray = 3 * (sizeof(sim::Ray) + 20);
-  return point.rays * bytes_of_a_ray > sim::memory_budget();
-}
-
-validate::AccuracyTarget target_of(const AccuracyOptions& options) {
+AccuracyTarget target_of(const AccuracyOptions& options) {
   const int given = (options.noise ? 1 : 0) + (options.error ? 1 : 0) + (options.seconds ? 1 : 0);
   if (given > 1) throw std::invalid_argument("give one of --target-noise, --target-error and --time-budget");
-  using Kind = validate::AccuracyTarget::Kind;
+  using Kind = AccuracyTarget::Kind;
   if (options.error) return {Kind::total, parse_share("--target-error", *options.error)};
   if (options.seconds) return {Kind::seconds, *options.seconds};
   return {Kind::noise, options.noise ? parse_share("--target-noise", *options.noise) : 0.05};
@@ -87,18 +73,7 @@ std::vector<sim::Estimator> estimators_of(const AccuracyOptions& options) {
   return chosen;
 }
 
-sim::Scene scene_of(const AccuracyOptions& options, std::uint64_t seed, const std::stop_token& stop) {
-  sim::SceneRequest request{.name = options.scene, .samples = {}, .seed = seed};
-  if (options.samples) {
-    require_count("--samples", *options.samples, 1, 1e9);
-    request.samples = static_cast<std::size_t>(*options.samples);
-  }
-  if (options.lights) request.lights = parse_lights(*options.lights);
-  if (options.up) request.up = parse_up(*options.up);
-  if (options.crease) request.crease = parse_crease(*options.crease);
-  return sim::open_scene(request, stop);
-}
-
+/// What a command that repeats a point has after its options.
 std::string repeated_options(const AccuracyOptions& options) {
   std::string text;
   if (options.samples) text += fmt::format(" --samples {:.9g}", *options.samples);
@@ -110,298 +85,217 @@ std::string repeated_options(const AccuracyOptions& options) {
   return text;
 }
 
-/// The samples in question, if they are not all of the scene's at one radius.
-struct Question {
-  std::vector<double> radii;     ///< to try; none: by the mesh
-  std::vector<double> relative;  ///< of the samples, over those
-  std::vector<double> weights;   ///< of the samples
-  std::string notice = {};       ///< if a run of the file would take other radii than the answer's
-};
-
-/// Makes the discs of a file the scene's samples.
-Question take_question(sim::Scene& scene, const AccuracyOptions& options, const std::stop_token& stop) {
-  Question question;
-  const double side = scene.box.longest_side();
-  const auto around = [](double radius) { return std::vector{radius / 2, radius, 2 * radius, 4 * radius}; };
-  std::optional<double> radius;
-  if (options.disc_radius) {
-    const validate::Length length = validate::parse_length(*options.disc_radius);
-    radius = length.relative ? length.value * side : length.value;
-    question.radii = around(*radius);
-  }
-  if (options.discs) {
-    if (options.samples) throw std::invalid_argument("the number of samples is for scenes; a disc file is taken whole");
-    const double usual = radius.value_or(0.5 * sim::mean_edge_length(scene.mesh, stop));
-    const std::vector<sim::Disc> discs = sim::read_discs(*options.discs, usual, stop);
-    scene.samples.clear();
-    std::vector<double> radii;
-    for (const sim::Disc& disc : discs) {
-      scene.samples.push_back({disc.centre, disc.normal});
-      radii.push_back(disc.radius);
-    }
-    if (std::ranges::any_of(radii, [&](double one) { return one != usual; }))
-      question.notice =
-          *options.discs + " has radii, which detp run takes: for the radius of the answer, leave out that column";
-    const double middle = validate::median(radii);
-    question.radii = around(middle);
-    question.weights = validate::weights_by_area(discs);
-    for (const double one : radii) question.relative.push_back(one / middle);
-  }
-  if (options.faces.empty()) return question;
-  if (question.weights.empty()) question.weights = validate::area_weights(scene, validate::Surfaces::all);
-  validate::keep_named(question.weights, scene.mesh, scene.samples, options.faces, stop);
-  return question;
+/// The place of a name among all.
+template <class Named>
+Named named(const std::string& option, const std::string& text, const auto& names) {
+  const std::string word = one_of(option, text, {names.begin(), names.end()});
+  return static_cast<Named>(std::ranges::find(names, word) - names.begin());
 }
 
-constexpr std::array<std::string_view, 4> axis_names{"estimator", "simulation", "model", "arithmetic"};
-
-void check_axes(const AccuracyOptions& options) {
+validate::AccuracyRequest request_of(const AccuracyOptions& options, const CommonOptions& common) {
+  validate::AccuracyRequest request{
+      .scene = {.name = options.scene, .samples = {}, .seed = common.seed},
+      .target = target_of(options),
+      .most_rays = options.rays.value_or(1e9),
+      .discs = options.discs,
+      .disc_radius = options.disc_radius,
+      .faces = options.faces,
+      .reference = options.reference,
+      .effort = named<validate::PlanningEffort>("--effort", options.effort, validate::planning_efforts),
+      .check = options.check,
+      .front_facing = options.front_facing,
+      .checkpoint = options.checkpoint,
+      .resume = options.resume,
+      .threads = common.threads,
+      .ranks = common.ranks,
+      .command = "detp run " + shell_word(options.scene),
+      .command_end = repeated_options(options)};
+  if (options.seeds) {
+    const SeedRange seeds = parse_seeds("--seeds", *options.seeds);
+    request.seeds = {seeds.first, seeds.last};
+    validate::check(*request.seeds);
+  }
   for (const std::string& axis : options.axes)
-    static_cast<void>(one_of("--axis", axis, {axis_names.begin(), axis_names.end()}));
+    request.axes.push_back(named<validate::AccuracyAxis>("--axis", axis, validate::accuracy_axes));
+  require_count("--rays", request.most_rays, 1000, 1e12);
+  validate::check(request.target, request.most_rays);
+  if (options.samples) {
+    require_count("--samples", *options.samples, 1, 1e9);
+    request.scene.samples = static_cast<std::size_t>(*options.samples);
+  }
+  if (options.lights) request.scene.lights = parse_lights(*options.lights);
+  if (options.up) request.scene.up = parse_up(*options.up);
+  if (options.crease) request.crease = parse_crease(*options.crease);
+  request.estimators = estimators_of(options);
+  return request;
 }
 
-/// Of the axes that were asked for, without that of the estimators.
-std::vector<validate::AxisPoint> other_axes(const AccuracyOptions& options, sim::Scene& scene, double radius,
-                                            const validate::AccuracyPilotOptions& pilot) {
-  constexpr std::size_t rays_of_model_axis = 200'000;
-  const validate::AxisOptions axis{pilot.seed, pilot.threads, pilot.stop};
-  const auto asked = [&](std::string_view name) { return std::ranges::find(options.axes, name) != options.axes.end(); };
-  const auto discs = validate::discs_at(scene.samples, radius);
-  std::vector<validate::AxisPoint> points;
-  const auto add = [&](std::vector<validate::AxisPoint> more) { std::ranges::move(more, std::back_inserter(points)); };
-  if (asked("simulation")) add(validate::simulation_axis(discs, axis));
-  if (asked("model")) {
-    const sim::Paths paths = validate::ReplicateMaker(scene, pilot.front_facing, pilot.threads, pilot.stop)
-                                 .trace(rays_of_model_axis, pilot.seed, radius);
-    add(validate::model_axis(paths, discs, validate::stored_unit_costs(Engine::simd), axis));
+std::string rivals_words(const AccuracyAnswer& answer) {
+  std::string text = fmt::format("{} is best", name(answer.plan.answer.estimator));
+  const AccuracyTarget& target = answer.plan.target;
+  for (const AccuracyPoint& rival : answer.plan.rivals) {
+    text += fmt::format("; {}", name(rival.estimator));
+    if (target.kind == AccuracyTarget::Kind::seconds || !answer.plan.reached)
+      text += fmt::format(" has {}", percent(rival.total.value));
+    else if (!reaches(rival, target))
+      text += fmt::format(" does not reach it: its bias is {}", bias_words(rival));
+    else if (target.kind == AccuracyTarget::Kind::noise && rival.bias.value > target.value)
+      text += fmt::format(" is left out for its bias, {}", bias_words(rival));
+    else if (std::ranges::find(answer.plan.ties, rival.estimator) != answer.plan.ties.end())
+      text += fmt::format(" is about as fast (bias {})", bias_words(rival));
+    else
+      text += fmt::format(" takes {:.2g} times as long (bias {})", rival.seconds / answer.plan.answer.seconds,
+                          bias_words(rival));
   }
-  if (asked("arithmetic")) add(validate::arithmetic_axis(axis));
-  return points;
+  if (answer.plan.gather_misses)
+    text += fmt::format("; gather is left out: it misses up to {} of the light", percent(*answer.plan.gather_misses));
+  return text;
 }
 
-/// The checkpoint of a command with these options, and what it has.
-class KeptAccuracy {
- public:
-  KeptAccuracy(const AccuracyOptions& options, const sim::Scene& scene, const validate::AccuracyTarget& target,
-               double most_rays, std::uint64_t seed, const std::stop_token& stop) {
-    if (!options.checkpoint) return;
-    const validate::ReferenceKey key = validate::reference_key(scene, {.front_facing = options.front_facing});
-    file_.emplace(*options.checkpoint, "accuracy",
-                  Json{{"seed", seed},
-                       {"digest of the scene", key.scene},
-                       {"samples", scene.samples.size()},
-                       {"facing", options.front_facing ? "front" : "any"},
-                       {"target", target.value},
-                       {"target of", target.kind == validate::AccuracyTarget::Kind::noise   ? "noise"
-                                     : target.kind == validate::AccuracyTarget::Kind::total ? "error"
-                                                                                            : "seconds"},
-                       {"effort", options.effort},
-                       {"check", options.check},
-                       {"estimators", fmt::format("{}", fmt::join(options.estimators, ","))},
-                       {"limit of rays", most_rays},
-                       {"seeds of the runs", options.seeds.value_or("none")},
-                       {"radius", options.disc_radius.value_or("none")},
-                       {"materials", fmt::format("{}", fmt::join(options.faces.materials, ","))},
-                       {"groups", fmt::format("{}", fmt::join(options.faces.groups, ","))},
-                       {"reference", options.reference.value_or("none")}});
-    if (options.resume) state = read_accuracy(*file_, stop);
+std::string reruns_words(const AccuracyAnswer& answer) {
+  std::vector<double> noise;
+  std::vector<double> seconds;
+  for (const validate::AccuracyRerun& one : answer.reruns) {
+    noise.push_back(one.noise);
+    seconds.push_back(one.seconds);
   }
+  return fmt::format(
+      "{} runs with seeds {} to {}: noise {} ({} to {}), inside the interval in {}; {:.2g} s ({:.2g} to {:.2g})",
+      noise.size(), answer.reruns.front().seed, answer.reruns.back().seed, percent(validate::median(noise)),
+      percent(std::ranges::min(noise)), percent(std::ranges::max(noise)), answer.inside(), validate::median(seconds),
+      std::ranges::min(seconds), std::ranges::max(seconds));
+}
 
-  void write() {
-    if (file_) write_accuracy(*file_, state);
-  }
-  void write_if_due() {
-    if (file_ && file_->due()) write();
-  }
+/// The curve has a point with the answer's number of rays.
+bool is_answer(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  constexpr double alike = 0.01;
+  const AccuracyPoint& best = answer.plan.answer;
+  return point.estimator == best.estimator && std::abs(point.rays / best.rays - 1) < alike &&
+         std::abs(point.radius - best.radius) <= alike * best.radius;
+}
 
-  SavedAccuracy state;
-
- private:
-  std::optional<validate::CheckpointFile> file_;
-};
-
-/// Fills in pilot, plan and check, or takes them from the checkpoint. Returns how far it came if a stop request ended it.
-std::optional<sim::Progress> find_answer(AccuracyAnswer& answer, sim::Scene& scene,
-                                         const validate::AccuracyTarget& target, validate::AccuracyPilotOptions pilot,
-                                         double most_rays, bool check, KeptAccuracy& saved) {
-  const sim::Stopwatch watch;
-  SavedAccuracy& state = saved.state;
-  bool stopped = false;
-  if (state.pilot) {
-    answer.pilot = *state.pilot;
-  } else {
-    validate::PilotedPlan planned = validate::plan_accuracy(scene, target, pilot, most_rays);
-    stopped = planned.stopped;
-    answer.pilot = std::move(planned.pilot);
-    state.planning_seconds = watch.seconds();
-    if (!stopped) {  // else a resumed command makes the pilots that are missing
-      state.pilot = answer.pilot;
-      saved.write();
+/// A table for each axis.
+std::string axes_text(const AccuracyAnswer& answer, const Screen& screen) {
+  std::string text;
+  for (std::size_t i = 0; i < answer.axes.size();) {
+    const std::string axis = answer.axes[i].axis;
+    TextTable table({{.head = axis, .align = Align::left},
+                     {.head = "error of", .align = Align::left},
+                     {.head = "error"},
+                     {.head = "from"},
+                     {.head = "to"},
+                     {.head = "seconds"},
+                     {.head = "1/(error² s)"}});
+    for (; i < answer.axes.size() && answer.axes[i].axis == axis; ++i) {
+      const validate::AxisPoint& point = answer.axes[i];
+      table.add({{point.setting},
+                 {point.quantity},
+                 {percent(point.error)},
+                 {point.interval ? percent(point.interval->low) : ""},
+                 {point.interval ? percent(point.interval->high) : ""},
+                 {fmt::format("{:.2g}", point.seconds)},
+                 {point.error > 0 ? fmt::format("{:.2g}", point.merit()) : ""}});
     }
+    text += table.text(screen) + "\n";
   }
-  answer.plan = validate::plan_accuracy(answer.pilot, target, most_rays);
-  answer.seconds = state.planning_seconds;
-  if (stopped) {
-    answer.no_check = "Stopped before the check.";
-    return sim::Progress{1, 3, "steps"};
-  }
-  if (!check) return std::nullopt;
-  if (too_large(answer.plan.answer)) {
-    answer.no_check = "Not run: too large for the memory.";
-    return std::nullopt;
-  }
-  if (answer.plan.answer.seconds > longest_check) {
-    answer.no_check = "Not run to check: too long.";
-    return std::nullopt;
-  }
-  if (!state.check) try {
-      const sim::Stopwatch of_check;
-      pilot.seed += seeds_apart;
-      if (pilot.progress) pilot.progress({"run to check", 0, 1, 0, answer.plan.answer.seconds});
-      state.check =
-          validate::check_accuracy(scene, answer.plan.answer, answer.pilot.mean_square, pilot, within_of(target));
-      state.planning_seconds += of_check.seconds();
-      saved.write_if_due();
-    } catch (const sim::Stopped&) {
-      answer.no_check = "Stopped before the check.";
-      return sim::Progress{2, 3, "steps"};
+  return text;
+}
+
+std::string bias_source(const AccuracyAnswer& answer) {
+  const validate::PilotJudge& judge = answer.pilot.judge;
+  if (judge.kind == validate::ReferenceKind::known) return "against the closed form of this scene.";
+  std::string text = fmt::format("against {} backward paths of each of {} samples (error {})", judge.paths,
+                                 judge.samples, percent(judge.error));
+  if (judge.kind == validate::ReferenceKind::both)
+    text += fmt::format(
+        " and {:.2g} photons for the {} of the light that these paths miss, extrapolated from two radii: blur common "
+        "to both is not seen",
+        static_cast<double>(judge.photons), percent(judge.missed_mean));
+  return text + ".";
+}
+
+std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
+  std::string text = wrapped("answer    " + answer_words(answer), screen.text_width(), 10);
+  text += wrapped(
+      "          " + fmt::format("In {:.2g} s, twice the time: {} total ({} noise, bias {}): {}. With the answer's "
+                                 "setting, the total falls as the time to the power {:.2f} ({:.2f} to {:.2f}).",
+                                 answer.in_time.seconds, percent(answer.in_time.total.value),
+                                 percent(answer.in_time.noise.value), bias_words(answer.in_time),
+                                 way_words(answer, answer.in_time), answer.plan.answer.slope.value,
+                                 answer.plan.answer.slope.low, answer.plan.answer.slope.high),
+      screen.text_width(), 10);
+  text += "command   " + command_of(answer, answer.plan.answer) + "\n";  // one line, to be pasted
+  text += wrapped("estimator " + rivals_words(answer), screen.text_width(), 10);
+  if (!answer.reruns.empty()) text += wrapped("runs      " + reruns_words(answer), screen.text_width(), 10);
+  text += "\n";
+  TextTable table({{.head = "total"},
+                   {.head = "noise"},
+                   {.head = "bias"},
+                   {.head = "pieces (paths)"},
+                   {.head = "setting", .align = Align::left},
+                   {.head = "estimator", .align = Align::left},
+                   {.head = "seconds"},
+                   {.head = "", .align = Align::left}});
+  const auto add = [&](const AccuracyPoint& point, const std::string& remark) {
+    table.add({{percent(point.total.value)},
+               {percent(point.noise.value)},
+               {point.bias.low > 0    ? percent(point.bias.value)
+                : point.bias.high > 0 ? "< " + percent(point.bias.high)
+                                      : "0"},
+               {fmt::format("{:.2g}", point.rays) + (point.gathers() ? " a sample" : "")},
+               {setting_words(answer, point)},
+               {std::string(name(point.estimator))},
+               {fmt::format("{:.2g}", point.seconds)},
+               {remark}});
+  };
+  std::vector<AccuracyPoint> shown;
+  for (const AccuracyPoint& point : answer.plan.points)
+    if (point.on_frontier && point.total.value < 1 && !is_answer(answer, point)) shown.push_back(point);
+  std::ranges::sort(shown, {}, &AccuracyPoint::seconds);
+  // of points that are equally fast, the most accurate one
+  std::vector<AccuracyPoint> best;
+  for (const AccuracyPoint& point : shown)
+    if (best.empty() || point.total.value < best.back().total.value) best.push_back(point);
+  // those around the answer
+  constexpr std::size_t rows_shown = 7;
+  const auto distance = [&](const AccuracyPoint& point) {
+    return std::abs(std::log(point.seconds / answer.plan.answer.seconds));
+  };
+  while (best.size() > rows_shown)
+    best.erase(distance(best.front()) > distance(best.back()) ? best.begin() : best.end() - 1);
+  bool answered = false;
+  for (const AccuracyPoint& point : best) {
+    if (!answered && point.seconds >= answer.plan.answer.seconds) {
+      add(answer.plan.answer, "<- answer");
+      answered = true;
     }
-  answer.check = state.check;
-  answer.checked = answer.plan.answer;
-  answer.pilot = validate::with_check(answer.pilot, answer.plan.answer, *answer.check);
-  answer.plan = validate::plan_accuracy(answer.pilot, target, most_rays);
-  answer.seconds = state.planning_seconds;
-  return std::nullopt;
+    add(point, "");
+  }
+  if (!answered) add(answer.plan.answer, "<- answer");
+  text += table.text(screen) + "\n" + axes_text(answer, screen);
+  text +=
+      wrapped(fmt::format("noise, bias, total: root mean square over {}, relative to the root mean square irradiance. "
+                          "Seconds: wall clock, tracing included. Bias: {}",
+                          "the samples by area", bias_source(answer)),
+              screen.text_width(), 0);
+  return text + fmt::format("planning  {:.2g} s: a pilot of {:.2g} pieces{}\n", answer.planning_seconds,
+                            answer.pilot.rays, answer.check ? ", one check" : "");
 }
 
 Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common, const std::stop_token& stop) {
-  const validate::AccuracyTarget target = target_of(options);
-  const SeedRange seeds = options.seeds ? parse_seeds("--seeds", *options.seeds) : SeedRange{};
-  if (options.seeds) validate::check_seeds(seeds.first, seeds.last);
-  check_axes(options);
-  const double most_rays = options.rays.value_or(1e9);
-  require_count("--rays", most_rays, 1000, 1e12);
-  validate::check(target, most_rays);
+  const validate::AccuracyRequest request = request_of(options, common);
   const ProgressLine progress(common.quiet);
-  sim::Scene scene = scene_of(options, common.seed, stop);
-  if (scene.mesh.triangles.empty())
-    throw std::invalid_argument(
-        fmt::format("accuracy needs photon paths in a mesh; {} has no triangles", options.scene));
-  const Question question = take_question(scene, options, stop);
-  const bool thorough = options.effort == "thorough";
-  validate::AccuracyPilotOptions pilot{.estimators = estimators_of(options),
-                                       .radii = question.radii,
-                                       .relative = question.relative,
-                                       .weights = question.weights,
-                                       .price = options.effort == "quick" ? 0.0
-                                                : thorough                ? 20
-                                                                          : 0.3,
-                                       .least_price = thorough ? 20 : 0.5,
-                                       .front_facing = options.front_facing,
-                                       .seed = common.seed,
-                                       .threads = common.threads,
-                                       .stop = stop,
-                                       .progress = progress.report(),
-                                       .ranks = options.seeds ? common.ranks : nullptr};
-  AccuracyAnswer answer{.scene = options.scene,
-                        .options = repeated_options(options),
-                        .pilot = {},
-                        .plan = {},
-                        .reference = {},
-                        .check = {},
-                        .checked = {},
-                        .no_check = {},
-                        .reruns = {},
-                        .axes = {},
-                        .in_time = {}};
-  answer.side = scene.box.longest_side();
-  answer.polygons = scene.mesh.polygons;
-  answer.normals_made = scene.mesh.normals_made;
-  answer.coincident = scene.mesh.coincident;
-  const auto reference = [&] {
-    return validate::kept_reference(
-        *options.reference, scene,
-        {.front_facing = options.front_facing, .threads = common.threads, .stop = stop, .progress = progress.report()});
-  };
-  if (options.reference) {
-    if (common.ranks != nullptr)  // rank 0 makes it, unless there is one
-      sim::do_on_all(*common.ranks, [&] {
-        if (common.answers()) answer.reference = reference();
-      });
-    if (!answer.reference) answer.reference = reference();
-    pilot.reference = &*answer.reference;
-  }
-  if (!common.answers()) {
-    if (options.seeds) validate::serve_reruns(scene, pilot);
-    return {};
-  }
-  if (common.ranks == nullptr) validate::probe_once(stop);
-  KeptAccuracy saved(options, scene, target, most_rays, common.seed, stop);
-  const auto say = [&](const std::string& text, const std::string& before) {
-    note(common, before + text);
-    answer.warnings.push_back(text);
-  };
-  for (const std::string& notice : scene.notices) say(notice, "");
-  if (!question.notice.empty()) say(question.notice, "warning: ");
-  if (question.weights.empty())
-    if (const std::string notice = validate::mirror_notice(validate::mirror_share(scene.mesh)); !notice.empty())
-      say(notice, "");
-  std::optional<sim::Progress> stopped = find_answer(answer, scene, target, pilot, most_rays, options.check, saved);
-  for (const std::string& warning : sim::light_warnings(answer.pilot.light, scene.lights)) say(warning, "warning: ");
-  pilot.seed += seeds_apart;
-  const validate::AccuracyPoint& best = answer.plan.answer;
-  if (options.seeds && !stopped && !too_large(best)) {
-    answer.reruns = validate::rerun_accuracy(scene, best, answer.pilot.mean_square, seeds.first, seeds.last, pilot,
-                                             saved.state.runs, [&](const std::vector<validate::MadeRerun>& made) {
-                                               saved.state.runs = made;
-                                               saved.write_if_due();
-                                             });
-    if (const std::uint64_t all = seeds.last - seeds.first + 1; answer.reruns.size() < all)
-      stopped = sim::Progress{answer.reruns.size(), all, "runs"};
-  }
-  if (stopped) saved.write();
-  if (!stopped) try {
-      answer.axes = other_axes(options, scene, answer.pilot.sample_distance, pilot);
-    } catch (const sim::Stopped&) {
-      stopped = sim::Progress{2, 3, "steps"};
-    } catch (const std::exception& error) {  // the answer is complete without them
-      say(fmt::format("no other axes: {}", error.what()), "warning: ");
-    }
-  answer.in_time =
-      validate::plan_accuracy(answer.pilot, {validate::AccuracyTarget::Kind::seconds, 2 * best.seconds}, most_rays)
-          .answer;
-  answer.most_rays = most_rays;
-  answer.threads = sim::useful_threads(common.threads);
-  answer.whole = {.triangles = static_cast<double>(scene.mesh.triangles.size()),
-                  .discs = static_cast<double>(scene.samples.size()),
-                  .rays = best.rays,
-                  .rays_in_memory = best.rays,
-                  .traced = !gathers(best)};
-  validate::add_file(options.scene, answer.whole);
+  const AccuracyAnswer answer =
+      validate::answer(request, stop, progress.report(), [&](const std::string& text) { note(common, text); });
+  if (!common.answers()) return {};
+  Table table(validate::accuracy_columns());
+  for (const Json& row : validate::accuracy_rows(answer)) table.add(row);
   Result result;
-  result.inputs = {
-      {"scene", options.scene},
-      {"target_noise", target.kind == validate::AccuracyTarget::Kind::noise ? Json(target.value) : Json()},
-      {"target_error", target.kind == validate::AccuracyTarget::Kind::total ? Json(target.value) : Json()},
-      {"time_budget", target.kind == validate::AccuracyTarget::Kind::seconds ? Json(target.value) : Json()},
-      {"estimators", options.estimators},
-      {"most_rays", most_rays},
-      {"reference", options.reference ? Json(*options.reference) : Json()},
-      {"axes", options.axes.empty() ? std::vector<std::string>{"estimator"} : options.axes},
-      {"effort", options.effort},
-      {"check", options.check},
-      {"discs", options.discs ? Json(*options.discs) : Json()},
-      {"disc_radius", question.radii.empty() ? Json() : Json(question.radii[1])},
-      {"materials", options.faces.materials},
-      {"groups", options.faces.groups},
-      {"seeds", options.seeds ? Json(*options.seeds) : Json()},
-      {"samples", scene.samples.size()},
-      {"front_facing", options.front_facing}};
-  if (options.crease) result.inputs["crease"] = parse_crease(*options.crease);
+  result.inputs = inputs_json(answer);
   result.json = to_json(answer);
   result.text = to_text(answer, common.screen());
-  result.csv = csv_of(answer);
-  result.stopped = stopped;
+  result.csv = table.csv();
+  result.stopped = answer.stopped;
   result.not_reached = !answer.plan.reached;
   return result;
 }

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "replicates.hpp"
+#include "detp/sim/estimate/estimate.hpp"
 
 /// What tracing and estimating takes, from counts and stored unit costs: the same seconds on a busy machine.
 namespace detp::validate {
