@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "choose_map.hpp"
 #include "choose_text.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/threads.hpp"
@@ -125,15 +124,41 @@ Json inputs_of(const validate::ChooseRequest& request, const validate::ChooseAns
   return json;
 }
 
+/// The axes are the values of --rays and --disc-radius.
+validate::MapRequest map_request(ChooseOptions& options, const CommonOptions& common) {
+  validate::MapRequest request;
+  for (std::size_t row = 0; row < options.workload.lists.rows(); ++row) {
+    options.workload.lists.choose_row(row);
+    request.job = options.workload.request(common, false);
+    if (request.job.rays) request.axes.rays.push_back(*request.job.rays);
+    if (request.job.disc_radius) request.axes.radii.push_back(*request.job.disc_radius);
+  }
+  if (request.job.numbers_alone()) {
+    if (!request.job.disc_radius) request.job.disc_radius = validate::default_map_radii().front();
+    require_numbers(request.job);
+  }
+  request.measure = options.analyze;
+  request.threads = common.threads;
+  request.checkpoint = options.checkpoint;
+  request.resume = options.resume;
+  return request;
+}
+
 Result run_choose(ChooseOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const auto rigor = requested_rigor(options);
   const std::vector<Technique> disabled = disabled_techniques(options);
   check_options(options, rigor, disabled);
   const Engine engine = parse_engine(options.engine);
-  if (options.map)
-    return run_choose_map({options.workload, options.costs, rigor, disabled, engine, options.analyze, options.verbose,
-                           options.checkpoint, options.resume},
-                          common, stop);
+  if (options.map) {
+    validate::MapRequest request = map_request(options, common);
+    const CostsInUse costs = options.costs.costs(common);
+    note_doubt(costs, common);
+    request.costs = costs.of(engine);
+    request.costs_origin = costs.origin;
+    request.rigor = rigor;
+    request.disabled = disabled;
+    return run_choose_map(request, common, options.verbose, stop);
+  }
   if (options.workload.lists.rows() > 1)
     throw std::invalid_argument("only with --map may --rays and --disc-radius have several values");
   options.workload.lists.choose_row(0);

@@ -44,7 +44,8 @@ std::vector<TextCell> measured_cells(const ChooseRow& row) {
 /// and the largest part of the row's time.
 std::vector<TextCell> compared_cells(const ChooseAnswer& answer, const ChooseRow& row) {
   const double ratio = row.predicted->seconds() / answer.choice.best().seconds();
-  if (!answer.by_sample()) return {{fmt::format("{:.3g}", ratio)}, {std::string(validate::largest_part(row.predicted->time))}};
+  if (!answer.by_sample())
+    return {{fmt::format("{:.3g}", ratio)}, {std::string(validate::largest_part(row.predicted->time))}};
   if (row.chosen()) return {{}};
   return {{as_long(ratio) + (row.could_win ? ", too close to tell" : "")}};
 }

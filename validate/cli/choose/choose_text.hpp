@@ -4,9 +4,12 @@
 #include <string>
 
 #include "detp/validate/choose/choose.hpp"
+#include "detp/validate/cli/options/common_options.hpp"
+#include "detp/validate/cli/text/result.hpp"
 #include "detp/validate/cli/text/screen.hpp"
+#include "detp/validate/map/technique_map.hpp"
 
-/// The text of `detp choose`, and the parts of it.
+/// The text of `detp choose`, the parts of it, and its map.
 namespace detp::cli {
 
 using validate::ChooseAnswer;
@@ -59,5 +62,10 @@ struct TextDetail {
 
 /// The notes below the table: what it extrapolates, and what its columns mean.
 [[nodiscard]] std::string candidate_notes(const ChooseAnswer& answer, const Screen& screen);
+
+/// `choose --map`: the answer. If --output names a file *.svg, writes the picture there, and the result goes to stdout. Throws as
+/// validate::answer.
+[[nodiscard]] Result run_choose_map(const validate::MapRequest& request, const CommonOptions& common, bool verbose,
+                                    const std::stop_token& stop);
 
 }  // namespace detp::cli
