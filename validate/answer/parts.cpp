@@ -152,16 +152,27 @@ const Columns& workload_columns() {
   return columns;
 }
 
-const Columns& candidate_columns() {
-  static const Columns columns = [] {
-    Columns all{"technique", "parameters"};
-    for (const Technique technique : all_techniques) {
-      const Json parameters = to_json(default_candidate(technique));
-      for (const auto& [parameter, value] : parameters.items())
-        if (std::find(all.begin(), all.end(), parameter) == all.end()) all.push_back(parameter);
-    }
-    return all;
+const Fields<Candidate>& candidate_fields() {
+  static const Fields<Candidate> fields = [] {
+    std::vector<Column> parameters;
+    for (const Technique technique : all_techniques)
+      for (const auto& [parameter, value] : to_json(default_candidate(technique)).items())
+        if (std::ranges::find(parameters, parameter, &Column::name) == parameters.end())
+          parameters.push_back({parameter, "/" + parameter});
+    using Of = Field<Candidate>;
+    return Fields<Candidate>{
+        Of("technique", "", "name of the technique", [](const Candidate& one) { return name(one.technique); }),
+        Of("parameters", "", "its parameters in words", [](const Candidate& one) { return describe(one); })
+            .in_tables_alone(),
+        Of("parameters", "", "its parameters by name", [](const Candidate& one) {
+          return to_json(one);
+        }).in(std::move(parameters))};
   }();
+  return fields;
+}
+
+const Columns& candidate_columns() {
+  static const Columns columns = columns_of(candidate_fields());
   return columns;
 }
 
@@ -187,11 +198,7 @@ Json workload_cells(const Json& inputs) {
   return cells;
 }
 
-Json candidate_cells(const Candidate& candidate) {
-  Json cells{{"technique", name(candidate.technique)}, {"parameters", describe(candidate)}};
-  cells.update(to_json(candidate));
-  return cells;
-}
+Json candidate_cells(const Candidate& candidate) { return cells_of(candidate_fields(), candidate); }
 
 Json count_cells(const Json& counts) {
   Json cells = counts;

@@ -53,6 +53,9 @@ namespace detp::validate {
 /// The first columns of every table: rays and discs.
 [[nodiscard]] const Columns& workload_columns();
 
+/// `technique` and `parameters`: in tables as text, and each parameter of any technique in a column of its own.
+[[nodiscard]] const Fields<Candidate>& candidate_fields();
+
 /// `technique`, `parameters` as text, and one column for each parameter of any technique.
 [[nodiscard]] const Columns& candidate_columns();
 

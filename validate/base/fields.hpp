@@ -1,7 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -14,14 +18,21 @@ namespace detp::validate {
 /// The value of a field that an answer does not have: neither JSON nor a table's row has it.
 [[nodiscard]] inline Json left_out() { return Json::value_t::discarded; }
 
-/// A value of a part that an answer may lack: the field is left out where `part` of the answer is null.
-template <class PartOf, class Value>
-[[nodiscard]] auto of_part(PartOf part, Value value) {
-  return [part, value](const auto& answer) {
-    const auto* const one = std::invoke(part, answer);
-    return one != nullptr ? json_value(std::invoke(value, *one)) : left_out();
+/// The value; left out if there is none.
+template <class T>
+[[nodiscard]] Json if_any(const std::optional<T>& value) {
+  return value ? json_value(*value) : left_out();
+}
+
+/// The value of a part that an answer may lack (an optional or a pointer), and then the field is left out.
+template <class Part, class Value>
+[[nodiscard]] auto of_part(Part part, Value value) {
+  return [part, value](const auto& answer) -> Json {
+    const auto& one = std::invoke(part, answer);
+    return one ? json_value(std::invoke(value, *one)) : left_out();
   };
 }
+
 /// A value that only some answers have.
 template <class Has, class Value>
 [[nodiscard]] auto only_if(Has has, Value value) {
@@ -116,22 +127,40 @@ template <class... Members>
   return [members...](const auto& answer) { return value_at(answer, members...); };
 }
 
-/// Fields of a part of the answer.
+/// Fields of a part of the answer; left out where the part is an optional or a pointer that is empty.
 template <class Answer, class Part, class PartOf>
 [[nodiscard]] Fields<Answer> fields_of_part(const Fields<Part>& fields, PartOf part) {
   Fields<Answer> all;
   for (const Field<Part>& one : fields) {
-    Field<Answer> field(one.name, one.unit, one.meaning,
-                        [value = one.value, part](const Answer& answer) { return value(std::invoke(part, answer)); });
+    Field<Answer> field(one.name, one.unit, one.meaning, [value = one.value, part](const Answer& answer) -> Json {
+      const auto& found = std::invoke(part, answer);
+      if constexpr (std::is_convertible_v<decltype(found), const Part&>)
+        return value(found);
+      else
+        return found ? value(*found) : left_out();
+    });
     field.columns = one.columns;
     if (one.cells)
       field.cells = [cells = one.cells, part](const Answer& answer, const Json& value) {
-        return cells(std::invoke(part, answer), value);
+        const auto& found = std::invoke(part, answer);
+        if constexpr (std::is_convertible_v<decltype(found), const Part&>)
+          return cells(found, value);
+        else
+          return cells(*found, value);
       };
     field.in_json = one.in_json;
     all.push_back(std::move(field));
   }
   return all;
+}
+
+/// The fields with these names.
+template <class Answer>
+[[nodiscard]] Fields<Answer> only(const Fields<Answer>& fields, const std::vector<std::string_view>& names) {
+  Fields<Answer> some;
+  for (const Field<Answer>& field : fields)
+    if (std::find(names.begin(), names.end(), field.name) != names.end()) some.push_back(field);
+  return some;
 }
 
 template <class Answer>
@@ -151,6 +180,14 @@ template <class Answer>
   return columns;
 }
 
+/// A list of texts as one cell, separated by "; "; any other value as it is.
+[[nodiscard]] inline Json one_cell(const Json& value) {
+  if (!value.is_array()) return value;
+  std::string texts;
+  for (const Json& one : value) texts += (texts.empty() ? "" : "; ") + one.get<std::string>();
+  return texts;
+}
+
 /// A row of a table, without what the answer has not.
 template <class Answer>
 [[nodiscard]] Json cells_of(const Fields<Answer>& fields, const Answer& answer) {
@@ -164,7 +201,8 @@ template <class Answer>
       continue;
     }
     for (const Column& column : field.columns)
-      if (const Json::json_pointer place(column.place); value.contains(place)) cells[column.name] = value.at(place);
+      if (const Json::json_pointer place(column.place); value.contains(place))
+        cells[column.name] = one_cell(value.at(place));
   }
   return cells;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/validate/base/search_work.hpp"
@@ -28,12 +29,13 @@ void take(const Timed& timed, const AnalysisOptions& options, Analysed& one) {
 
 Analysis analyse(const sim::Problem& problem, const std::vector<Prediction>& ranking, const AnalysisOptions& options) {
   const sim::DefaultFloatingPoint mode;
+  constexpr double patience = 5;  // times the shortest time so far
   std::vector<Contender> asked;
   for (const Prediction& one : ranking) asked.push_back({one.candidate, one.threads});
   const Exhaustive found = measure_all(problem, asked,
                                        {.repeats = options.repeats,
-                                        .patience = options.patience,
-                                        .patience_if_asked = options.patience,
+                                        .patience = patience,
+                                        .patience_if_asked = patience,
                                         .least_patience = 0.02,
                                         .threads = options.threads,
                                         .vary_threads = false,
@@ -50,10 +52,7 @@ Analysis analyse(const sim::Problem& problem, const std::vector<Prediction>& ran
       return one.candidate == contender.candidate && one.threads == contender.threads;
     });
     if (same != all.candidates.end()) return *same;
-    return all.candidates.emplace_back(
-        Analysed{.candidate = contender.candidate,
-                 .threads = contender.threads,
-                 .predicted = options.predict ? options.predict(contender.candidate) : std::optional<Prediction>{}});
+    return all.candidates.emplace_back(Analysed{.candidate = contender.candidate, .threads = contender.threads});
   };
   for (const Timed& timed : found.candidates) take(timed, options, row_of(timed.contender));
   for (const Refused& refused : found.refused) row_of(refused.contender).refused = refused.reason;
@@ -69,6 +68,31 @@ Analysis analyse(const sim::Problem& problem, const std::vector<Prediction>& ran
   }
   all.stopped = options.stop.stop_requested();
   return all;
+}
+
+PredictionError prediction_error(const Prediction& predicted, const Counts<std::uint64_t>& counted, double seconds,
+                                 const CostTable& costs) {
+  const Counts<double> found = as_expected(counted);
+  const Technique technique = predicted.candidate.technique;
+  const double counted_seconds = price(found, costs, technique, predicted.threads).again();
+  PredictionError error{.seconds = predicted.time.again() / seconds,
+                        .counts = predicted.time.again() / counted_seconds,
+                        .unit_costs = counted_seconds / seconds,
+                        .worst = {}};
+  double most = -1;
+  for (const auto& [name, term] : count_terms<double>) {
+    const double expected = predicted.counts.*term;
+    Counts<double> difference;
+    difference.*term = std::abs(expected - found.*term);
+    const double weight = price(difference, costs, technique).total();
+    if (!(weight > most)) continue;
+    most = weight;
+    error.worst = name;
+    error.worst_ratio = expected == found.*term ? 1
+                        : found.*term > 0       ? expected / found.*term
+                                                : std::numeric_limits<double>::infinity();
+  }
+  return error;
 }
 
 }  // namespace detp::validate

@@ -1,5 +1,7 @@
 #include "tips.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -75,6 +77,23 @@ TipInputs with_value(TipInputs inputs, TipInput input, double value) {
   return inputs;
 }
 
+/// A number >= 1, rounded to three digits.
+double three_digits(double number) {
+  const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(number)) - 2));
+  return std::round(number / unit) * unit;
+}
+
+std::string threads_words(double threads) { return fmt::format("{:.0f} thread{}", threads, threads == 1 ? "" : "s"); }
+
+/// " (40 % fewer)", " (4 times as many)": how far from the present value; nothing for threads.
+std::string how_far(const Tip& tip) {
+  if (tip.input == TipInput::threads) return "";
+  const bool rays = tip.input == TipInput::rays;
+  if (tip.ratio >= 1.995) return fmt::format(" ({:.3g} times as {})", tip.ratio, rays ? "many" : "large");
+  return fmt::format(" ({:.0f} % {})", 100 * std::abs(tip.ratio - 1),
+                     tip.ratio > 1 ? (rays ? "more" : "larger") : (rays ? "fewer" : "smaller"));
+}
+
 double factor_between(double a, double b) { return std::max(a, b) / std::min(a, b); }
 
 class TipFinder {
@@ -84,12 +103,12 @@ class TipFinder {
       : present_(present), search_(search), choose_(choose), stop_(stop) {}
 
   Tips run() {
-    for (const TipInput input : {TipInput::disc_radius, TipInput::rays, TipInput::threads})
+    for (const TipInput input : tip_inputs)
       found_.ranges[static_cast<std::size_t>(input)] = {value_of(present_, input), value_of(present_, input)};
     const auto now = choice_with(present_);
     if (!now) return std::move(found_);
     now_ = *now;
-    for (const TipInput input : {TipInput::disc_radius, TipInput::rays, TipInput::threads}) {
+    for (const TipInput input : tip_inputs) {
       for (const bool up : {false, true})
         walk(input, input == TipInput::threads ? thread_values(up) : values(input, up));
       if (!stop_.stop_requested()) ++found_.inputs;
@@ -237,6 +256,36 @@ Tips tips_of(const Choice& choice, const Question& question, const Valid<CostTab
       {workload.disc_radius, question.ray_count.value_or(workload.rays), sim::useful_threads(question.threads)},
       {.factor = choice.rigor == Rigor::estimate ? 16.0 : 4.0, .steps = 4, .most_threads = sim::useful_threads(0)},
       choose, question.stop);
+}
+
+std::string place_of(const Tip& tip) {
+  if (tip.input == TipInput::threads) return threads_words(tip.at);
+  if (tip.input == TipInput::rays)
+    return fmt::format("{:.0f} rays or {}", three_digits(tip.at), tip.ratio > 1 ? "more" : "fewer");
+  return fmt::format("d = {:.3g} or {}", tip.at, tip.ratio > 1 ? "more" : "less");
+}
+
+std::string text_of(const Tip& tip) {
+  const auto technique = name(tip.candidate.technique);
+  const std::string there = place_of(tip) + how_far(tip);
+  switch (tip.kind) {
+    case TipKind::technique:
+      return fmt::format("{} is faster with {}", technique, there);
+    case TipKind::not_ruled_out:
+      return fmt::format("{} is no longer ruled out with {}", technique, there);
+    case TipKind::parameters:
+      return fmt::format("{} is {:.0f} % faster with {}", title(tip.candidate), 100 * distinguishable, there);
+    case TipKind::threads:
+      return fmt::format("{} {} faster with {}", threads_words(tip.threads), tip.threads == 1 ? "is" : "are", there);
+  }
+  return "";
+}
+
+std::string text_of(TipInput input, const TipRange& range) {
+  if (input == TipInput::disc_radius) return fmt::format("d from {:.3g} to {:.3g}", range.least, range.most);
+  if (input == TipInput::rays)
+    return fmt::format("{:.0f} to {:.0f} rays", three_digits(range.least), three_digits(range.most));
+  return fmt::format("{:.0f} to {:.0f} threads", range.least, range.most);
 }
 
 }  // namespace detp::validate

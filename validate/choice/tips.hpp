@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,8 @@ namespace detp::validate {
 inline constexpr double distinguishable = 0.15;
 
 enum class TipInput { disc_radius, rays, threads };
+
+inline constexpr std::array tip_inputs{TipInput::disc_radius, TipInput::rays, TipInput::threads};
 
 enum class TipKind {
   technique,      ///< another technique is chosen
@@ -94,6 +97,15 @@ struct Tips {
 ///            with 100 000 photon paths, a tenth to a half of those of the pilot; by closed forms 55 to 236 million in
 ///            four examples (valgrind --tool=callgrind)
 [[nodiscard]] Tips tips_of(const Choice& choice, const Question& question, const Valid<CostTable>& costs);
+
+/// "d = 0.31 or more", "3000 rays or fewer" or "1 thread".
+[[nodiscard]] std::string place_of(const Tip& tip);
+
+/// "grid is faster with 3000 rays or fewer (40 % fewer)".
+[[nodiscard]] std::string text_of(const Tip& tip);
+
+/// "d from 0.25 to 4".
+[[nodiscard]] std::string text_of(TipInput input, const TipRange& range);
 
 }  // namespace detp::validate
 

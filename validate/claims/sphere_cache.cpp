@@ -110,10 +110,10 @@ std::vector<CacheSet> run_all(const Experiment& experiment, std::size_t lines) {
   });
 }
 
-using Columns = std::vector<CacheLogs> CacheSet::*;
+using LogsOfSet = std::vector<CacheLogs> CacheSet::*;
 
 /// Over all Q and all sets.
-double geometric_mean(const std::vector<CacheSet>& sets, Columns columns, double CacheLogs::*term) {
+double geometric_mean(const std::vector<CacheSet>& sets, LogsOfSet columns, double CacheLogs::*term) {
   double sum = 0;
   double count = 0;
   for (const CacheSet& set : sets)

@@ -4,34 +4,10 @@
 #include <utility>
 
 #include "detp/validate/checkpoint/value_json.hpp"
+#include "detp/validate/choice/candidate_json.hpp"
 
 namespace detp::validate {
 namespace {
-
-nlohmann::json json_of(const Candidate& candidate) {
-  nlohmann::json parameters = nlohmann::json::object();
-  for (const auto& record : record_of(candidate.technique).parameters)
-    std::visit([&](const auto& value) { parameters[std::string(record.name)] = value; },
-               record.get(candidate.parameters));
-  return {{"technique", name(candidate.technique)}, {"parameters", parameters}};
-}
-
-/// Throws std::invalid_argument for an unknown technique or parameter.
-Candidate candidate_of(const nlohmann::json& json) {
-  const auto technique = technique_named(json.at("technique").get<std::string>());
-  if (!technique) throw std::invalid_argument("there is no such technique");
-  Candidate candidate = default_candidate(*technique);
-  for (const auto& record : record_of(*technique).parameters) {
-    const nlohmann::json& value = json.at("parameters").at(std::string(record.name));
-    if (value.is_string())
-      set_parameter(candidate, record.name, std::string_view(value.get_ref<const std::string&>()));
-    else if (value.is_number_float())
-      set_parameter(candidate, record.name, value.get<double>());
-    else
-      set_parameter(candidate, record.name, value.get<std::int64_t>());
-  }
-  return candidate;
-}
 
 template <class T>
 nlohmann::json optional_json(const std::optional<T>& value) {
@@ -46,13 +22,14 @@ std::optional<T> optional_of(const nlohmann::json& json) {
 nlohmann::json json_of(const Analysis& analysis) {
   nlohmann::json candidates = nlohmann::json::array();
   for (const Analysed& one : analysis.candidates)
-    candidates.push_back({{"candidate", json_of(one.candidate)},
-                          {"threads", one.threads},
-                          {"counted", optional_json(one.counted)},
-                          {"seconds", optional_json(one.seconds)},
-                          {"spread", one.spread},
-                          {"given_up_after", optional_json(one.given_up_after)},
-                          {"refused", one.refused}});
+    candidates.push_back(
+        {{"candidate", {{"technique", name(one.candidate.technique)}, {"parameters", to_json(one.candidate)}}},
+         {"threads", one.threads},
+         {"counted", optional_json(one.counted)},
+         {"seconds", optional_json(one.seconds)},
+         {"spread", one.spread},
+         {"given_up_after", optional_json(one.given_up_after)},
+         {"refused", one.refused}});
   return {{"candidates", candidates},
           {"tried", analysis.tried},
           {"best", optional_json(analysis.best)},
@@ -65,7 +42,10 @@ Analysis analysis_of(const nlohmann::json& json, const std::vector<Prediction>& 
   analysis.best = optional_of<std::size_t>(json.at("best"));
   analysis.regret = optional_of<double>(json.at("regret"));
   for (const nlohmann::json& one : json.at("candidates")) {
-    Analysed candidate{.candidate = candidate_of(one.at("candidate")),
+    const nlohmann::json& kept = one.at("candidate");
+    const auto technique = technique_named(kept.at("technique").get<std::string>());
+    if (!technique) throw std::invalid_argument("there is no such technique");
+    Analysed candidate{.candidate = candidate_of(*technique, kept.at("parameters")),
                        .threads = one.at("threads").get<int>(),
                        .counted = optional_of<Counts<std::uint64_t>>(one.at("counted")),
                        .seconds = optional_of<double>(one.at("seconds")),

@@ -1,5 +1,3 @@
-#include "map_svg.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -52,8 +50,8 @@ std::optional<Sign> predicted_sign(const MapCell& cell) {
 
 std::optional<Sign> measured_sign(const MapCell& cell) {
   if (!cell.analysis) return std::nullopt;
-  const Analysed& best = cell.analysis->candidates[cell.analysis->best.value()];
-  const CellVerdict verdict = verdict_of(cell);
+  const Analysed& best = *cell.fastest();
+  const CellVerdict verdict = *cell.verdict();
   std::string tip = fmt::format("{}, measured {}", title(best.candidate), seconds_label(*best.seconds));
   if (!verdict.agrees)
     tip += fmt::format("; {} takes {:.2g} % longer", title(cell.analysis->candidates.front().candidate),
@@ -74,15 +72,20 @@ std::vector<double> axis_places(const std::vector<double>& values, double length
 
 class MapDrawing {
  public:
-  MapDrawing(const TechniqueMap& map, const MapCaption& caption)
-      : map_(map), caption_(caption), agreement_(agreement_of(map)), xs_(axis_places(map.rays, panel_width)) {
+  MapDrawing(const TechniqueMap& map, const std::string& machine, const std::string& program)
+      : map_(map),
+        machine_(machine),
+        program_(program),
+        agreement_(agreement_of(map)),
+        xs_(axis_places(map.rays, panel_width)) {
     std::vector<double> radii;
     for (const MapRow& row : map.rows) radii.push_back(row.workload.disc_radius);
     ys_ = axis_places(radii, panel_height);
     panels_.push_back({"predicted", predicted_sign});
     if (agreement_.cells > 0) panels_.push_back({"measured", measured_sign});
     panels_.push_back({"the paper's rule (limits: X = 2 and X = 6)", paper_sign});
-    find_present();
+    for (const Technique technique : all_techniques)
+      if (is_present(technique)) present_.push_back(technique);
   }
 
   std::string draw() {
@@ -102,16 +105,10 @@ class MapDrawing {
   }
 
  private:
-  void find_present() {
-    for (const Technique technique : all_techniques)
-      if (is_present(technique)) present_.push_back(technique);
-  }
-
   [[nodiscard]] bool is_present(Technique technique) const {
     for (const Panel& panel : panels_)
-      for (const MapRow& row : map_.rows)
-        for (const MapCell& cell : row.cells)
-          if (const auto sign = panel.sign_of(cell); sign && sign->technique == technique) return true;
+      for (const PlacedCell& one : map_.cells())
+        if (const auto sign = panel.sign_of(*one.cell); sign && sign->technique == technique) return true;
     return false;
   }
 
@@ -123,14 +120,14 @@ class MapDrawing {
     };
     add(22, "Fastest technique by number of rays and disc radius", 15, true);
     add(39, describe(map_), text_size);
-    std::string line = fmt::format("{}, {}, one thread", caption_.machine, caption_.program);
+    std::string line = fmt::format("{}, {}, one thread", machine_, program_);
     if (agreement_.cells > 0)
       line += fmt::format("; measured technique as predicted in {} of {} cells ({:.0f} %)", agreement_.agree,
                           agreement_.cells, 100 * agreement_.share());
     if (map_.stopped)
       line += fmt::format("; stopped after {} of {} {}", map_.stopped->done, map_.stopped->of, map_.stopped->unit);
     add(54, line, text_size);
-    add(69, "unit costs " + caption_.costs, small);
+    add(69, "unit costs " + map_.costs_origin, small);
   }
 
   void draw_panel(Svg& svg, const Panel& panel, double x) const {
@@ -241,7 +238,8 @@ class MapDrawing {
   }
 
   const TechniqueMap& map_;
-  const MapCaption& caption_;
+  const std::string& machine_;
+  const std::string& program_;
   Agreement agreement_;
   std::vector<double> xs_;  ///< edges of the cells, from the left
   std::vector<double> ys_;  ///< from the bottom
@@ -251,9 +249,9 @@ class MapDrawing {
 
 }  // namespace
 
-std::string map_svg(const TechniqueMap& map, const MapCaption& caption) {
+std::string map_svg(const TechniqueMap& map, const std::string& machine, const std::string& program) {
   if (map.rows.empty()) throw std::invalid_argument("a map without rows cannot be drawn");
-  return MapDrawing(map, caption).draw();
+  return MapDrawing(map, machine, program).draw();
 }
 
 }  // namespace detp::validate

@@ -19,21 +19,31 @@
 namespace detp::validate {
 namespace {
 
+void require_few(std::string_view what, std::size_t values) {
+  if (values > most_axis_values)
+    throw std::length_error(fmt::format("a map has room for {} {}, not for {}: give at most {}, or make several maps",
+                                        most_axis_values, what, values, most_axis_values));
+}
+
 class MapMaker {
  public:
-  MapMaker(JobRequest request, const MapAxes& axes, const MapOptions& options)
-      : request_(std::move(request)), axes_(checked(axes)), options_(options) {
-    if (options.rigor == Rigor::structural)
+  MapMaker(const MapRequest& request, const std::stop_token& stop, const sim::ReportPhase& progress)
+      : request_(request), stop_(stop), progress_(progress), job_(request.job), axes_(request.axes) {
+    if (request.rigor == Rigor::structural)
       throw std::invalid_argument("a map is predicted by a pilot or by closed forms, not by structures");
-    if (request_.numbers_alone() && options.rigor == Rigor::pilot)
+    if (job_.numbers_alone() && request.rigor == Rigor::pilot)
       throw std::invalid_argument("a pilot needs rays: name a scene or files, or estimate by closed forms");
-    request_.workload_only = !options.measure;
-    if (!axes_.rays.empty()) request_.rays = axes_.rays.back();
+    if (axes_.rays.empty() && !job_.ray_file) axes_.rays = default_map_rays();
+    if (axes_.radii.empty() && !job_.disc_file) axes_.radii = default_map_radii();
+    axes_ = checked(std::move(axes_));
+    job_.workload_only = !request.measure;
+    if (!axes_.rays.empty()) job_.rays = axes_.rays.back();
+    map_.costs_origin = request.costs_origin;
   }
 
   TechniqueMap make() {
     predict_all();
-    if (options_.measure && !map_.stopped) measure_all();
+    if (request_.measure && !map_.stopped) measure_all();
     for (Made& one : made_) map_.rows.push_back(std::move(one.row));
     return std::move(map_);
   }
@@ -49,7 +59,7 @@ class MapMaker {
   void predict_all() {
     const sim::Stopwatch watch;
     const std::size_t rows = std::max<std::size_t>(1, axes_.radii.size());
-    if (options_.measure && !request_.ray_file && !axes_.rays.empty())
+    if (request_.measure && !job_.ray_file && !axes_.rays.empty())
       sim::require_memory(fmt::format("a map of {} disc radii with up to {:g} rays", rows, axes_.rays.back()),
                           static_cast<double>(rows) * axes_.rays.back() * sizeof(sim::Ray));
     try {
@@ -69,16 +79,16 @@ class MapMaker {
   }
 
   void predict_row(std::size_t number, std::size_t rows) {
-    if (!axes_.radii.empty()) request_.disc_radius = axes_.radii[number];
-    const double end = options_.measure ? share_of_predicting : 1;
+    if (!axes_.radii.empty()) job_.disc_radius = axes_.radii[number];
+    const double end = request_.measure ? share_of_predicting : 1;
     const auto share = [&](std::size_t i) { return end * static_cast<double>(i) / static_cast<double>(rows); };
     Made& made = made_.emplace_back();
-    const bool only_numbers = request_.numbers_alone() && !options_.measure;
+    const bool only_numbers = job_.numbers_alone() && !request_.measure;
     if (only_numbers) {
-      made.row.workload = workload_of_numbers(request_);
+      made.row.workload = workload_of_numbers(job_);
       map_.name = name_of_numbers(made.row.workload);
     } else {
-      made.job = make_job(request_, options_.stop, sim::part_of(options_.progress, share(number), share(number + 1)));
+      made.job = make_job(job_, stop_, sim::part_of(progress_, share(number), share(number + 1)));
       made.row.workload = made.job.workload();
       map_.name = made.job.name;
       map_.field = made.job.field;
@@ -92,7 +102,7 @@ class MapMaker {
     for (const double rays : map_.rays)
       row.cells.push_back({.rays = rays, .paper = model::paper_rule(with(row, rays))});
     for (MapCell& cell : row.cells) cell.choice = predict(only_numbers ? nullptr : &made.job, with(row, cell.rays));
-    if (!options_.measure) made.job = {};
+    if (!request_.measure) made.job = {};
   }
 
   static void add_new(std::vector<std::string>& list, const std::string& text) {
@@ -108,8 +118,7 @@ class MapMaker {
   /// The cell's problem: the job's first rays.
   [[nodiscard]] sim::Problem problem_of(const Job& job, double rays) const {
     const auto first = static_cast<std::size_t>(std::min(rays, static_cast<double>(job.rays.size())));
-    return sim::make_problem(std::span(job.rays).first(first), job.discs, job.front_facing, options_.threads,
-                             options_.stop);
+    return sim::make_problem(std::span(job.rays).first(first), job.discs, job.front_facing, request_.threads, stop_);
   }
 
   /// `job` is null if only numbers are known.
@@ -119,12 +128,12 @@ class MapMaker {
     Question question{.problem = problem ? &*problem : nullptr,
                       .ray_count = workload.rays,
                       .workload = workload,
-                      .rigor = options_.rigor,
-                      .threads = options_.threads,
-                      .disabled = options_.disabled,
-                      .stop = options_.stop};
-    if (!question.rigor && request_.numbers_alone()) question.rigor = Rigor::estimate;
-    return choose_for_cell(question, options_.costs);
+                      .rigor = request_.rigor,
+                      .threads = request_.threads,
+                      .disabled = request_.disabled,
+                      .stop = stop_};
+    if (!question.rigor && job_.numbers_alone()) question.rigor = Rigor::estimate;
+    return choose_for_cell(question, request_.costs);
   }
 
   [[nodiscard]] std::size_t predicted() const {
@@ -166,9 +175,9 @@ class MapMaker {
       const std::string name = cell_name(*place.job, *place.cell);
       if (kept) place.cell->analysis = kept->find(name, place.cell->choice->candidates);
       if (!place.cell->analysis)
-        measure(place.job, *place.cell, sim::part_of(options_.progress, share(before), share(before + place.seconds)));
+        measure(place.job, *place.cell, sim::part_of(progress_, share(before), share(before + place.seconds)));
       if (kept && place.cell->analysis) kept->add(name, *place.cell->analysis);
-      if (options_.stop.stop_requested()) break;
+      if (stop_.stop_requested()) break;
       before += place.seconds;
       ++done;
     }
@@ -183,7 +192,7 @@ class MapMaker {
 
   /// Of this map's cells, whose rays, discs and choices are known; read if the map is resumed.
   [[nodiscard]] std::optional<MapCheckpoint> checkpoint() const {
-    if (!options_.checkpoint) return std::nullopt;
+    if (!request_.checkpoint) return std::nullopt;
     Digest jobs;
     std::string choices;
     for (const Made& one : made_) {
@@ -191,25 +200,25 @@ class MapMaker {
       for (const MapCell& cell : one.row.cells) choices += title(cell.choice->best().candidate) + "; ";
     }
     std::string disabled;
-    for (const Technique technique : options_.disabled) disabled += fmt::format("{} ", name(technique));
-    MapCheckpoint kept(*options_.checkpoint, {{"digest of rays and discs", jobs.text()},
+    for (const Technique technique : request_.disabled) disabled += fmt::format("{} ", name(technique));
+    MapCheckpoint kept(*request_.checkpoint, {{"digest of rays and discs", jobs.text()},
                                               {"choices", choices},
-                                              {"engine", name(options_.costs.engine)},
-                                              {"runs of each candidate", options_.repeats},
-                                              {"threads", options_.threads},
+                                              {"engine", name(request_.costs.engine)},
+                                              {"runs of each candidate", request_.repeats},
+                                              {"threads", request_.threads},
                                               {"disabled", disabled}});
-    if (options_.resume) kept.read(options_.stop);
+    if (request_.resume) kept.read(stop_);
     return kept;
   }
 
   void measure(const Job* job, MapCell& cell, const sim::ReportPhase& progress) const {
     try {
       Analysis analysis = analyse(problem_of(*job, cell.rays), cell.choice->candidates,
-                                  {.repeats = options_.repeats,
-                                   .disabled = options_.disabled,
-                                   .engine = options_.costs.engine,
-                                   .threads = sim::useful_threads(options_.threads),
-                                   .stop = options_.stop,
+                                  {.repeats = request_.repeats,
+                                   .disabled = request_.disabled,
+                                   .engine = request_.costs.engine,
+                                   .threads = sim::useful_threads(request_.threads),
+                                   .stop = stop_,
                                    .progress = progress});
       if (!analysis.stopped && analysis.regret) cell.analysis = std::move(analysis);
     } catch (const sim::Stopped&) {
@@ -217,17 +226,41 @@ class MapMaker {
     }
   }
 
-  JobRequest request_;
+  const MapRequest& request_;
+  const std::stop_token& stop_;
+  const sim::ReportPhase& progress_;
+  JobRequest job_;
   MapAxes axes_;
-  const MapOptions& options_;
   std::vector<Made> made_;
   TechniqueMap map_;
 };
 
 }  // namespace
 
-TechniqueMap make_map(const JobRequest& request, const MapAxes& axes, const MapOptions& options) {
-  return MapMaker(request, axes, options).make();
+std::vector<double> default_map_rays() { return {100, 300, 1000, 3000, 10'000, 30'000, 100'000, 300'000}; }
+
+std::vector<Length> default_map_radii() {
+  std::vector<Length> radii;
+  for (double share = 0.0025; share < 0.2; share *= 2) radii.push_back({share, true});
+  return radii;
+}
+
+MapAxes checked(MapAxes axes) {
+  for (const double rays : axes.rays) require_count("number of rays", rays, 1, 1e18);
+  for (const Length& radius : axes.radii) require_positive("disc radius", radius.value);
+  std::sort(axes.rays.begin(), axes.rays.end());
+  axes.rays.erase(std::unique(axes.rays.begin(), axes.rays.end()), axes.rays.end());
+  std::vector<Length> different;
+  for (const Length& radius : axes.radii)
+    if (std::find(different.begin(), different.end(), radius) == different.end()) different.push_back(radius);
+  axes.radii = std::move(different);
+  require_few("numbers of rays", axes.rays.size());
+  require_few("disc radii", axes.radii.size());
+  return axes;
+}
+
+TechniqueMap answer(const MapRequest& request, const std::stop_token& stop, const sim::ReportPhase& progress) {
+  return MapMaker(request, stop, progress).make();
 }
 
 Choice choose_for_cell(const Question& question, const CostTable& costs) {

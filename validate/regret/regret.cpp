@@ -9,7 +9,7 @@
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/validate/choice/prediction_error.hpp"
+#include "detp/validate/choice/analysis.hpp"
 #include "detp/validate/measure/run_time.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 

@@ -1,4 +1,4 @@
-#include "detp/validate/choice/prediction_error.hpp"
+#include "detp/validate/choice/analysis.hpp"
 
 #include <doctest/doctest.h>
 

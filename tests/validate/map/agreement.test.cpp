@@ -10,14 +10,14 @@ using namespace detp::validate;
 TEST_SUITE("known answer") {
   TEST_CASE("a cell agrees if the predicted technique was the fastest; overlapping ranges are within noise") {
     const TechniqueMap map = support::small_map();
-    const CellVerdict same = verdict_of(map.rows[0].cells[0]);
+    const CellVerdict same = map.rows[0].cells[0].verdict().value();
     CHECK(same.agrees);
     CHECK(same.slower == 0);
-    const CellVerdict other = verdict_of(map.rows[0].cells[1]);
+    const CellVerdict other = map.rows[0].cells[1].verdict().value();
     CHECK_FALSE(other.agrees);
     CHECK(other.slower == doctest::Approx(3));
     CHECK_FALSE(other.within_noise);
-    const CellVerdict noisy = verdict_of(map.rows[1].cells[0]);
+    const CellVerdict noisy = map.rows[1].cells[0].verdict().value();
     CHECK_FALSE(noisy.agrees);
     CHECK(noisy.slower == doctest::Approx(0.1));
     CHECK(noisy.within_noise);

@@ -1,4 +1,4 @@
-#include "detp/validate/map/map_axes.hpp"
+#include "detp/validate/map/map_summary.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "detp/validate/map/map_svg.hpp"
+#include "detp/validate/map/map_summary.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,13 +15,14 @@ using support::is_well_formed;
 
 namespace {
 
-const MapCaption test_caption{"a <CPU> & \"cache\"", "detp 0.0.0", "as given"};
+const std::string machine = "a <CPU> & \"cache\"";
+const std::string program = "detp 0.0.0";
 
 }  // namespace
 
 TEST_SUITE("known answer") {
   TEST_CASE("the picture has three panels, the agreement, both kinds of marks and unknown cells") {
-    const std::string svg = map_svg(support::small_map(), test_caption);
+    const std::string svg = map_svg(support::small_map(), machine, program);
     CHECK(is_well_formed(svg));
     for (const char* part : {">predicted</text>", ">measured</text>", "paper's rule", "in 1 of 3 cells (33 %)",
                              "@small", "detp 0.0.0", "a &lt;CPU&gt; &amp; &quot;cache&quot;", ">1e2</text>",
@@ -36,7 +37,7 @@ TEST_SUITE("known answer") {
     TechniqueMap map = support::small_map();
     for (MapRow& row : map.rows)
       for (MapCell& cell : row.cells) cell.analysis.reset();
-    const std::string svg = map_svg(map, test_caption);
+    const std::string svg = map_svg(map, machine, program);
     CHECK(is_well_formed(svg));
     CHECK(svg.find(">measured</text>") == std::string::npos);
     CHECK(count_of(svg, "<path") == 0);
@@ -45,11 +46,11 @@ TEST_SUITE("known answer") {
   TEST_CASE("a stopped map says so, and a map with a single cell can be drawn") {
     TechniqueMap map = support::small_map();
     map.stopped = {3, 4, "cells measured"};
-    CHECK(map_svg(map, test_caption).find("stopped after 3 of 4 cells measured") != std::string::npos);
+    CHECK(map_svg(map, machine, program).find("stopped after 3 of 4 cells measured") != std::string::npos);
     map.rays.resize(1);
     map.rows.resize(1);
     map.rows[0].cells.resize(1);
-    const std::string svg = map_svg(map, test_caption);
+    const std::string svg = map_svg(map, machine, program);
     CHECK(is_well_formed(svg));
     CHECK(svg.find("nan") == std::string::npos);
     CHECK(svg.find("inf") == std::string::npos);
@@ -58,8 +59,8 @@ TEST_SUITE("known answer") {
 
 TEST_SUITE("identity") {
   TEST_CASE("the same map gives the same bytes, which refer to nothing outside") {
-    const std::string svg = map_svg(support::small_map(), test_caption);
-    CHECK(svg == map_svg(support::small_map(), test_caption));
+    const std::string svg = map_svg(support::small_map(), machine, program);
+    CHECK(svg == map_svg(support::small_map(), machine, program));
     CHECK(count_of(svg, "http") == 1);  // the name of SVG
     for (const char* part : {"href", "url(", "@import", "<script", "<image"})
       CHECK(svg.find(part) == std::string::npos);
@@ -72,6 +73,6 @@ TEST_SUITE("identity") {
 
 TEST_SUITE("bad input") {
   TEST_CASE("a map without rows is refused") {
-    CHECK_THROWS_AS(static_cast<void>(map_svg(TechniqueMap{}, test_caption)), std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(map_svg(TechniqueMap{}, machine, program)), std::invalid_argument);
   }
 }

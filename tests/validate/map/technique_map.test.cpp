@@ -33,14 +33,16 @@ JobRequest number_request() {
 
 constexpr UnitCosts free_of_cost{.cull_test = 0, .disc_test = 0, .index_test = 0, .step = 0, .node = 0};
 
-MapOptions map_options() { return {.costs = built_in_unit_costs()}; }
+MapRequest map_request(const JobRequest& job, const MapAxes& axes) {
+  return {.job = job, .axes = axes, .costs = built_in_unit_costs()};
+}
 
 }  // namespace
 
 TEST_SUITE("identity") {
   TEST_CASE("each cell has the candidate that a pilot of the cell's own job chooses") {
     const MapAxes axes{{300, 3000}, {{0.02, true}, {0.08, true}}};
-    const TechniqueMap map = make_map(scene_request(), axes, map_options());
+    const TechniqueMap map = answer(map_request(scene_request(), axes));
     CHECK_FALSE(map.stopped);
     CHECK(map.rays == axes.rays);
     REQUIRE(map.rows.size() == 2);
@@ -66,7 +68,7 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("a map of numbers has the first of each ranking, without rays") {
-    const TechniqueMap map = make_map(number_request(), {{1e4, 1e12}, {{0.01}}}, map_options());
+    const TechniqueMap map = answer(map_request(number_request(), {{1e4, 1e12}, {{0.01}}}));
     CHECK(map.name == "uniform samples in a cube");
     for (const MapCell& cell : map.rows.at(0).cells) {
       const Workload workload = cube_workload(cell.rays, 1e4, 0.01, 2);
@@ -76,9 +78,14 @@ TEST_SUITE("identity") {
     }
   }
 
+  TEST_CASE("axes without values have the default ones") {
+    const TechniqueMap map = answer(map_request(number_request(), {}));
+    CHECK(map.rays == default_map_rays());
+    CHECK(map.rows.size() == default_map_radii().size());
+  }
+
   TEST_CASE("rows ascend by radius, and equal radii are one row") {
-    const TechniqueMap map =
-        make_map(number_request(), {{10}, {{0.08, true}, {0.1}, {0.05, true}, {0.02}}}, map_options());
+    const TechniqueMap map = answer(map_request(number_request(), {{10}, {{0.08, true}, {0.1}, {0.05, true}, {0.02}}}));
     REQUIRE(map.rows.size() == 3);
     CHECK(map.rows[0].workload.disc_radius == 0.02);
     CHECK(map.rows[1].workload.disc_radius == doctest::Approx(0.1));
@@ -87,11 +94,11 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("a measured map has the analysis of each cell, without disabled techniques") {
-    MapOptions options = map_options();
-    options.measure = true;
-    options.repeats = 1;
-    options.disabled = {Technique::bvh};
-    const TechniqueMap map = make_map(scene_request(100), {{20, 40}, {{0.05, true}}}, options);
+    MapRequest request = map_request(scene_request(100), {{20, 40}, {{0.05, true}}});
+    request.measure = true;
+    request.repeats = 1;
+    request.disabled = {Technique::bvh};
+    const TechniqueMap map = answer(request);
     CHECK_FALSE(map.stopped);
     for (const MapCell& cell : map.rows.at(0).cells) {
       REQUIRE(cell.analysis);
@@ -103,20 +110,19 @@ TEST_SUITE("identity") {
 
   TEST_CASE("a resumed map takes measured cells from its checkpoint, and measures the others") {
     const support::ScratchFolder folder;
-    MapOptions options = map_options();
-    options.measure = true;
-    options.repeats = 1;
-    options.checkpoint = folder.path("map.json");
-    const MapAxes axes{{20, 40}, {{0.05, true}}};
-    const TechniqueMap map = make_map(scene_request(100), axes, options);
+    MapRequest request = map_request(scene_request(100), {{20, 40}, {{0.05, true}}});
+    request.measure = true;
+    request.repeats = 1;
+    request.checkpoint = folder.path("map.json");
+    const TechniqueMap map = answer(request);
     auto file = nlohmann::json::parse(support::content_of(folder.path("map.json")));
     REQUIRE(file.at("state").size() == 2);
     file["state"].erase(file["state"].begin());
     for (nlohmann::json& one : file["state"].begin().value()["candidates"])
       if (one["seconds"].is_number()) one["seconds"] = 100 + one["seconds"].get<double>();
     folder.file("map.json", support::sealed_checkpoint(file));
-    options.resume = true;
-    const TechniqueMap again = make_map(scene_request(100), axes, options);
+    request.resume = true;
+    const TechniqueMap again = answer(request);
     const auto measured = [&](const TechniqueMap& one, std::size_t cell) {
       return *one.rows.at(0).cells.at(cell).analysis;
     };
@@ -132,23 +138,22 @@ TEST_SUITE("identity") {
     }
     CHECK(kept == 1);
     CHECK(nlohmann::json::parse(support::content_of(folder.path("map.json"))).at("state").size() == 2);
-    options.threads = 2;
-    CHECK_THROWS_AS((void)make_map(scene_request(100), axes, options), sim::FileError);
+    request.threads = 2;
+    CHECK_THROWS_AS((void)answer(request), sim::FileError);
   }
 
   TEST_CASE("a stop request ends a map: rows so far, no half cells") {
     std::stop_source stop;
-    MapOptions options = map_options();
-    options.stop = stop.get_token();
-    options.measure = true;
+    MapRequest request = map_request(scene_request(), {{20, 40}, {{0.05, true}}});
+    request.measure = true;
     bool measuring = false;
-    options.progress = [&](const sim::Phase& phase) {
+    const sim::ReportPhase progress = [&](const sim::Phase& phase) {
       if (phase.from >= 0.1) {
         measuring = true;
         stop.request_stop();
       }
     };
-    const TechniqueMap map = make_map(scene_request(), {{20, 40}, {{0.05, true}}}, options);
+    const TechniqueMap map = answer(request, stop.get_token(), progress);
     CHECK(measuring);
     REQUIRE(map.stopped);
     CHECK(map.stopped->done == 0);
@@ -158,7 +163,7 @@ TEST_SUITE("identity") {
       CHECK(cell.choice);
       CHECK_FALSE(cell.analysis);
     }
-    const TechniqueMap none = make_map(scene_request(), {{20, 40}, {{0.05, true}}}, options);
+    const TechniqueMap none = answer(request, stop.get_token(), progress);
     CHECK(none.rows.empty());
     REQUIRE(none.stopped);
     CHECK(none.stopped->of == 2);
@@ -167,20 +172,17 @@ TEST_SUITE("identity") {
 
 TEST_SUITE("bad input") {
   TEST_CASE("a rigor that a map cannot have, costs of 0 and rays that do not fit in memory are refused") {
-    const auto make = [](const JobRequest& request, const MapAxes& axes, const MapOptions& options) {
-      static_cast<void>(make_map(request, axes, options));
-    };
-    MapOptions options = map_options();
-    options.rigor = Rigor::structural;
-    CHECK_THROWS_WITH_AS(make(scene_request(), {{10}, {}}, options), doctest::Contains("structures"),
-                         std::invalid_argument);
-    options.rigor = Rigor::pilot;
-    CHECK_THROWS_WITH_AS(make(number_request(), {{10}, {}}, options), doctest::Contains("needs rays"),
-                         std::invalid_argument);
-    CHECK_THROWS_AS(make(number_request(), {{10}, {}}, {.costs = free_of_cost}), std::invalid_argument);
-    options = map_options();
-    options.measure = true;
-    CHECK_THROWS_WITH_AS(make(scene_request(), {{1e15}, {{0.01, true}}}, options), doctest::Contains("1 disc radii"),
-                         std::length_error);
+    MapRequest request = map_request(scene_request(), {{10}, {}});
+    request.rigor = Rigor::structural;
+    CHECK_THROWS_WITH_AS((void)answer(request), doctest::Contains("structures"), std::invalid_argument);
+    request.job = number_request();
+    request.rigor = Rigor::pilot;
+    CHECK_THROWS_WITH_AS((void)answer(request), doctest::Contains("needs rays"), std::invalid_argument);
+    request.rigor.reset();
+    request.costs = free_of_cost;
+    CHECK_THROWS_AS((void)answer(request), std::invalid_argument);
+    request = map_request(scene_request(), {{1e15}, {{0.01, true}}});
+    request.measure = true;
+    CHECK_THROWS_WITH_AS((void)answer(request), doctest::Contains("1 disc radii"), std::length_error);
   }
 }

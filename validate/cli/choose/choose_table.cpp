@@ -1,4 +1,4 @@
-#include "choose_parts.hpp"
+#include "choose_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,30 +14,44 @@
 namespace detp::cli {
 namespace {
 
-/// Two cells: the row's predicted time divided by that of the first candidate, and the name of the largest part of the
-/// row's predicted time. For instance "3.5" and "ray-disc tests".
-std::vector<TextCell> comparison_cells(const ChooseAnswer& answer, const ChooseRow& row) {
-  const CostBreakdown& time = row.predicted->time;
-  return {{fmt::format("{:.3g}", time.total() / answer.choice.best().time.total())}, {largest_part(time)}};
+/// The columns of what was measured: counted, measured, predicted / measured.
+std::vector<TextColumn> measured_table_columns() {
+  return {{.head = "tests", .spare = 3, .group = "counted"},
+          {.head = "seconds", .align = Align::left, .group = "measured"},
+          {.head = "tests", .spare = 2, .group = "predicted / measured"},
+          {.head = "seconds", .align = Align::left, .group = "predicted / measured"}};
 }
 
-/// The row's predicted time compared with the choice's, and whether they can be told apart; nothing for the choice.
-std::vector<TextCell> pilot_cells(const ChooseAnswer& answer, const ChooseRow& row) {
-  if (row.chosen) return {{}};
-  const double ratio = row.predicted->time.total() / answer.choice.best().time.total();
-  return {{as_long(ratio) + (could_win(answer, row) ? ", too close to tell" : "")}};
+std::vector<TextCell> measured_cells(const ChooseRow& row) {
+  const validate::Analysed& run = *row.run;
+  std::vector<TextCell> cells(4);
+  if (!run.counted) return cells;
+  const auto counted = static_cast<double>(tests(*run.counted));
+  cells[0].text = fmt::format("{:.3g}", counted);
+  if (row.predicted != nullptr && counted > 0)
+    cells[2].text = fmt::format("{:.2f}", tests(row.predicted->counts) / counted);
+  if (!run.seconds) return cells;
+  cells[1].text = fmt::format("{:.3g}", *run.seconds);
+  if (run.spread > 0) cells[1].text += fmt::format(" ± {:.1g}", run.spread);
+  if (!row.missed) return cells;
+  const double ratio = row.missed->seconds;
+  const bool far_off = ratio > 2 || ratio < 0.5;
+  cells[3] = {fmt::format("{:.2f}{}", ratio, far_off ? " !" : ""), far_off ? Style::doubtful : Style::plain};
+  return cells;
+}
+
+/// The row's predicted time compared with the choice's: after a pilot whether they can be told apart (nothing for the choice); else the ratio,
+/// and the largest part of the row's time.
+std::vector<TextCell> compared_cells(const ChooseAnswer& answer, const ChooseRow& row) {
+  const double ratio = row.predicted->seconds() / answer.choice.best().seconds();
+  if (!answer.by_sample())
+    return {{fmt::format("{:.3g}", ratio)}, {std::string(validate::largest_part(row.predicted->time))}};
+  if (row.chosen()) return {{}};
+  return {{as_long(ratio) + (row.could_win ? ", too close to tell" : "")}};
 }
 
 /// Whether closed forms other than those of box trees and brute force are never chosen if they are extrapolated.
 bool is_real(const ChooseAnswer& answer) { return answer.by_sample() || !model::is_counted_scene(answer.workload); }
-
-std::string verdict(const ChooseAnswer& answer, const ChooseRow& row) {
-  if (row.chosen) return "<- choice";
-  if (row.run == nullptr || row.run->seconds) return "";
-  Json json;
-  add_measured(json, *answer.analysis, *row.run);
-  return json["not_run"];
-}
 
 }  // namespace
 
@@ -57,60 +71,50 @@ std::string candidate_table(const ChooseAnswer& answer, const Screen& screen) {
   columns.push_back({.head = "", .align = Align::left});
   TextTable table(std::move(columns));
   for (const ChooseRow& row : rows_of(answer)) {
-    const Style style = row.chosen ? Style::good : Style::plain;
+    const Style style = row.chosen() ? Style::good : Style::plain;
     std::vector<TextCell> cells{{std::string(name(row.candidate.technique)), style},
                                 {describe(row.candidate), style},
-                                {fmt::format("{}", threads_of(row))}};
+                                {fmt::format("{}", row.threads)}};
     if (row.predicted != nullptr) {
       const std::string_view mark =
           extrapolation_mark(row.candidate.technique, row.predicted->extrapolated, is_real(answer));
       cells.push_back({fmt::format("{:.3g}", tests(row.predicted->counts))});
-      const double error = error_of(answer, row).value_or(0);
-      cells.push_back({fmt::format("{:.3g}{}{}", row.predicted->time.total(), mark,
+      const double error = row.error();
+      cells.push_back({fmt::format("{:.3g}{}{}", row.predicted->seconds(), mark,
                                    error > 0 ? fmt::format(" ± {:.1g}", error) : "")});
     }
     cells.resize(5);
-    for (const TextCell& cell : answer.analysis      ? measured_cells(*row.run)
-                                : answer.by_sample() ? pilot_cells(answer, row)
-                                                     : comparison_cells(answer, row))
+    for (const TextCell& cell : answer.analysis ? measured_cells(row) : compared_cells(answer, row))
       cells.push_back(cell);
-    cells.push_back({verdict(answer, row), row.chosen ? Style::good : Style::faint});
+    cells.push_back({row.chosen() ? "<- choice" : row.not_run, row.chosen() ? Style::good : Style::faint});
     table.add(std::move(cells));
   }
   return "\n" + table.text(screen);
 }
 
 std::string measured_table(const ChooseAnswer& answer, const Screen& screen) {
-  const validate::Analysis& analysis = *answer.analysis;
   const std::vector<ChooseRow> rows = rows_of(answer);
-  std::vector<const ChooseRow*> fastest;  // of each technique, and the predicted choice
-  std::vector<std::pair<std::string, std::vector<std::string_view>>> untimed;  // by the reason
+  std::vector<const ChooseRow*> shown;  // of each technique the fastest; the first if none was timed
   for (const ChooseRow& row : rows) {
-    if (!row.run->seconds) continue;
-    const auto same = std::ranges::find(fastest, row.candidate.technique,
+    const auto same = std::ranges::find(shown, row.candidate.technique,
                                         [](const ChooseRow* one) { return one->candidate.technique; });
-    if (same == fastest.end())
-      fastest.push_back(&row);
-    else if (*row.run->seconds < *(*same)->run->seconds)
+    if (same == shown.end())
+      shown.push_back(&row);
+    else if (row.run->seconds && (!(*same)->run->seconds || *row.run->seconds < *(*same)->run->seconds))
       *same = &row;
   }
-  if (fastest.empty()) return "";
-  std::vector<Technique> told;
-  for (const ChooseRow& row : rows) {
-    const Technique technique = row.candidate.technique;
-    const bool timed = std::ranges::any_of(
-        rows, [&](const ChooseRow& one) { return one.candidate.technique == technique && one.run->seconds; });
-    if (timed || std::ranges::find(told, technique) != told.end()) continue;
-    told.push_back(technique);
-    const std::string reason = why_not_measured(analysis, *row.run);
-    auto same = std::ranges::find(untimed, reason, [](const auto& one) { return one.first; });
-    if (same == untimed.end()) same = untimed.insert(untimed.end(), {reason, {}});
-    same->second.push_back(name(technique));
+  std::vector<std::pair<std::string, std::vector<std::string_view>>> untimed;  // by the reason
+  for (const ChooseRow* row : shown) {
+    if (row->run->seconds) continue;
+    auto same = std::ranges::find(untimed, row->not_run, [](const auto& one) { return one.first; });
+    if (same == untimed.end()) same = untimed.insert(untimed.end(), {row->not_run, {}});
+    same->second.push_back(name(row->candidate.technique));
   }
-  if (rows.front().run->seconds && std::ranges::find(fastest, &rows.front()) == fastest.end())
-    fastest.push_back(&rows.front());
-  std::ranges::stable_sort(fastest,
-                           [](const ChooseRow* a, const ChooseRow* b) { return *a->run->seconds < *b->run->seconds; });
+  std::erase_if(shown, [](const ChooseRow* row) { return !row->run->seconds; });
+  if (shown.empty()) return "";
+  if (rows.front().run->seconds && std::ranges::find(shown, &rows.front()) == shown.end())
+    shown.push_back(&rows.front());
+  std::ranges::stable_sort(shown, {}, [](const ChooseRow* row) { return *row->run->seconds; });
   TextTable table({{.head = "technique", .align = Align::left},
                    {.head = "parameters", .align = Align::left},
                    {.head = "predicted s", .align = Align::left},
@@ -118,9 +122,9 @@ std::string measured_table(const ChooseAnswer& answer, const Screen& screen) {
                    {.head = "tests", .spare = 2, .group = "predicted / measured"},
                    {.head = "seconds", .align = Align::left, .group = "predicted / measured"},
                    {.head = "", .align = Align::left}});
-  for (const ChooseRow* row : fastest) {
-    const Style style = row->chosen ? Style::good : Style::plain;
-    const std::vector<TextCell> measured = measured_cells(*row->run);
+  for (const ChooseRow* row : shown) {
+    const Style style = row->chosen() ? Style::good : Style::plain;
+    const std::vector<TextCell> measured = measured_cells(*row);
     const bool predicted = row == &rows.front();
     table.add({{std::string(name(row->candidate.technique)), style},
                {describe(row->candidate), style},
@@ -128,9 +132,9 @@ std::string measured_table(const ChooseAnswer& answer, const Screen& screen) {
                measured[1],
                measured[2],
                measured[3],
-               {row->chosen ? "<- fastest"
-                : predicted ? "<- predicted choice"
-                            : "",
+               {row->chosen() ? "<- fastest"
+                : predicted   ? "<- predicted choice"
+                              : "",
                 style}});
   }
   std::string text = "\n" + table.text(screen);

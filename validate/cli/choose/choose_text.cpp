@@ -1,10 +1,11 @@
+#include "choose_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "choose_parts.hpp"
-#include "choose_report.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
+#include "detp/validate/cli/report/prediction_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/words.hpp"
 
@@ -17,7 +18,7 @@ constexpr std::size_t usual_width = 120;  // of which they are lines
 /// "0.0172 ± 0.009 s", and what the error does not cover.
 std::string predicted_seconds(const ChooseAnswer& answer) {
   const auto& choice = answer.choice.best();
-  const double seconds = choice.time.total();
+  const double seconds = choice.seconds();
   double error = 0;
   const char* note = "";
   if (answer.by_sample()) {
@@ -33,7 +34,7 @@ std::string predicted_seconds(const ChooseAnswer& answer) {
 std::string close_shapes(const ChooseAnswer& answer) {
   const std::vector<ChooseRow> rows = rows_of(answer);
   const auto close = std::count_if(rows.begin() + 1, rows.end(), [&](const ChooseRow& row) {
-    return row.candidate.technique == rows.front().candidate.technique && could_win(answer, row);
+    return row.candidate.technique == rows.front().candidate.technique && row.could_win;
   });
   return close == 0 ? ""
                     : fmt::format("; {} other {} of it {} within {:.0f} %", close, close == 1 ? "shape" : "shapes",
@@ -84,7 +85,7 @@ std::string how_chosen(const ChooseAnswer& answer) {
 
 std::string planning_line(const ChooseAnswer& answer) {
   const double seconds = answer.choosing_seconds;
-  const double share = seconds / answer.choice.best().time.total();
+  const double share = seconds / answer.choice.best().seconds();
   return fmt::format(
       "planning  {} ({} the predicted run): {}",
       seconds < 1 ? fmt::format("{:.{}g} ms", 1e3 * seconds, seconds < 0.1 ? 2 : 3) : fmt::format("{:.3g} s", seconds),
@@ -97,10 +98,32 @@ std::string costs_line(const ChooseAnswer& answer, bool verbose) {
                      verbose || plain ? fmt::format("; engine {}", name(answer.costs.engine)) : "");
 }
 
-std::string paragraph(const std::string& text, const Screen& screen) { return wrapped(text, screen.text_width(), 10); }
+/// Scene and rays.
+std::string title_lines(const ChooseAnswer& answer, const Screen& screen) {
+  if (answer.job) return paragraph(describe(*answer.job), screen);
+  const Workload& workload = answer.workload;
+  return paragraph(
+      fmt::format("workload  {:.6g} rays, {:.6g} samples, discs of radius d = {:.4g}, r0 = {:.4g}, D = {:.2f}\n",
+                  workload.rays, workload.samples, workload.disc_radius, workload.sphere_radius, workload.dimension),
+      screen);
+}
+
+std::string bytes_text(double bytes) {
+  return bytes >= 1e9 ? fmt::format("{:.3g} GB", bytes / 1e9) : fmt::format("{:.3g} MB", bytes / 1e6);
+}
+
+std::string ranks_line(const validate::RanksAnswer& answer) {
+  return fmt::format(
+      "ranks     {:.9g} processes share the {}: {:.3g} ± {:.1g} s with making the rays (one process {:.3g} s); {} on "
+      "rank 0{}, which receives {}",
+      answer.ranks, answer.by_rays ? "rays" : "discs", answer.best().total(), answer.error, answer.alone,
+      bytes_text(answer.best().memory),
+      answer.fits ? "" : fmt::format(", more than the {} that it may have", bytes_text(answer.memory_limit)),
+      bytes_text(answer.best().traffic));
+}
 
 std::string choice_lines(const ChooseAnswer& answer, const Screen& screen) {
-  const bool measured = answer.analysis && answer.analysis->best;
+  const bool measured = answer.fastest() != nullptr;
   return (measured ? "" : choice_text(predicted_choice(answer), screen)) +
          (answer.analysis ? measured_lines(answer, screen) : "") +
          (answer.ranks ? paragraph(ranks_line(*answer.ranks), screen) : "");
@@ -123,10 +146,10 @@ struct Detail {
 };
 
 std::string with_detail(const ChooseAnswer& answer, const Screen& screen, const Detail& detail) {
-  return paragraph(answer.title, screen) + paragraph(short_effects_line(answer.effects), screen) +
+  return title_lines(answer, screen) + paragraph(short_effects_line(answer.effects), screen) +
          (detail.spaced ? "\n" : "") + choice_lines(answer, screen) + paragraph(rival_line(answer), screen) +
          paragraph(short_tips_line(answer, detail.tips), screen) +
-         (detail.whole ? paragraph(whole_line(whole_of(answer), {}), screen) : "") +
+         (detail.whole ? paragraph(whole_line(answer.whole, {}), screen) : "") +
          paragraph(planning_line(answer), screen) + paragraph(costs_line(answer, false), screen);
 }
 
@@ -143,9 +166,8 @@ std::string short_text(const ChooseAnswer& answer, const Screen& screen) {
 }
 
 std::string analysis_text(const ChooseAnswer& answer, const Screen& screen) {
-  const std::string gain = gain_line(answer);
-  return choice_lines(answer, screen) + (gain.empty() ? "" : paragraph(gain, screen)) + measured_table(answer, screen) +
-         "\n" + paragraph(answer.title, screen) + paragraph(short_effects_line(answer.effects), screen) +
+  return choice_lines(answer, screen) + paragraph(gain_line(answer), screen) + measured_table(answer, screen) + "\n" +
+         title_lines(answer, screen) + paragraph(short_effects_line(answer.effects), screen) +
          paragraph(planning_line(answer), screen) + paragraph(costs_line(answer, false), screen) + hint(screen);
 }
 
@@ -153,11 +175,9 @@ std::string verbose_text(const ChooseAnswer& answer, const Screen& screen) {
   std::string text;
   const auto add = [&](const std::string& line) { text += paragraph(line, screen); };
   if (answer.analysis) {
-    text += choice_lines(answer, screen) + missed_lines(answer, screen);
-    if (const std::string gain = gain_line(answer); !gain.empty()) add(gain);
-    text += "\n";
+    text += choice_lines(answer, screen) + missed_lines(answer, screen) + paragraph(gain_line(answer), screen) + "\n";
   }
-  add(answer.title);
+  text += title_lines(answer, screen);
   add(effects_line(answer.effects));
   text += candidate_table(answer, screen) + candidate_notes(answer, screen) + "\n";
   if (!answer.analysis) text += choice_lines(answer, screen);
@@ -166,9 +186,9 @@ std::string verbose_text(const ChooseAnswer& answer, const Screen& screen) {
   if (answer.by_sample() && !answer.choice.unexamined.empty()) add(not_examined_line(answer.choice));
   add(tips_line(answer));
   add(fmt::format("paper     its rule takes {}: predicted {:.3g} s, {}", title(answer.paper.candidate),
-                  answer.paper.time.total(),
-                  as_long(answer.paper.time.total() / answer.choice.best().time.total(), "the predicted choice")));
-  add(whole_line(whole_of(answer), {}));
+                  answer.paper.seconds(),
+                  as_long(answer.paper.seconds() / answer.choice.best().seconds(), "the predicted choice")));
+  add(whole_line(answer.whole, {}));
   add(planning_line(answer));
   add(fmt::format("rigor     {}", name(answer.rigor)));
   add(costs_line(answer, true));
