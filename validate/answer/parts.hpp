@@ -96,18 +96,6 @@ template <class T>
   return cells;
 }
 
-/// Counts in JSON: a column for each term and `tests`, each after the prefix.
-template <class Answer, class Value>
-[[nodiscard]] Field<Answer> counts_field(const std::string& name, const std::string& prefix, const std::string& meaning,
-                                         Value value) {
-  return Field<Answer>(name, "", meaning, value).by(count_columns(prefix), [prefix](const Answer&, const Json& counts) {
-    Json cells = Json::object();
-    const Json plain = count_cells(counts);
-    for (const auto& [term, count] : plain.items()) cells[prefix + term] = count;
-    return cells;
-  });
-}
-
 /// The parameters of a candidate, which is null if there is none: in JSON by name; in tables as text, and a column for each parameter of any technique.
 template <class Answer, class CandidateOf>
 [[nodiscard]] Field<Answer> parameters_field(const std::string& meaning, CandidateOf candidate) {
@@ -131,16 +119,6 @@ template <class Answer, class Value>
 [[nodiscard]] Field<Answer> effects_field(Value value) {
   return Field<Answer>("effects", "", "deviations from uniform lines and samples, with the evidence for each", value)
       .by(effect_columns(), [](const Answer&, const Json& effects) { return effect_cells(effects); });
-}
-
-/// A list of sentences; in tables one text.
-template <class Answer, class Value>
-[[nodiscard]] Field<Answer> texts_field(const std::string& name, const std::string& meaning, Value value) {
-  return Field<Answer>(name, "", meaning, value).by({name}, [name](const Answer&, const Json& texts) {
-    std::string all;
-    for (const Json& one : texts) all += (all.empty() ? "" : "; ") + one.get<std::string>();
-    return Json{{name, all}};
-  });
 }
 
 }  // namespace detp::validate

@@ -89,6 +89,21 @@ struct Field {
     return field;
   }
 
+  /// Counts: a column for each term, and one for the sum of the tests, each after the prefix ("predicted_").
+  [[nodiscard]] Field as_counts(const std::string& prefix) const {
+    Columns names;
+    for_each_term(Counts<double>{},
+                  [&](std::string_view term, double) { names.push_back(prefix + std::string(term)); });
+    names.push_back(prefix + "tests");
+    return by(names, [prefix](const Answer&, const Json& counts) {
+      Json cells = Json::object();
+      for (const auto& [term, count] : counts.items()) cells[prefix + term] = count;
+      cells[prefix + "tests"] =
+          counts["cull_tests"].template get<double>() + counts["disc_tests"].template get<double>();
+      return cells;
+    });
+  }
+
   std::string name;
   std::string unit;  ///< "s", "bytes"; empty for words, shares and numbers of things
   std::string meaning;

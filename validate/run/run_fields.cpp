@@ -6,10 +6,10 @@
 #include "detp/model/optimum/best_ratio.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/ranked.hpp"
-#include "detp/validate/whole/accuracy_costs.hpp"
 #include "detp/validate/answer/parts.hpp"
-#include "detp/validate/calibration/sum_costs.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/stopping/job_batches.hpp"
+#include "detp/validate/whole/accuracy_costs.hpp"
 
 namespace detp::validate {
 
@@ -260,10 +260,11 @@ const Fields<ShownRun>& run_fields() {
        of_gather([](const Run& run) { return run.answer.run.missed.share; })},
       {"missed_share_bound", "", "its upper bound, 95 %",
        of_gather([](const Run& run) { return run.answer.run.missed.upper_bound; })},
-      counts_field<Run>("counts", "", "operations, as counted",
-                        [](const Run& run) { return to_json(counted(run.answer)); }),
-      counts_field<Run>("predicted", "predicted_", "operations, as predicted",
-                        of_prediction([](const Run&, const Counts<double>& counts) { return to_json(counts); })),
+      Field<Run>("counts", "", "operations, as counted", [](const Run& run) { return to_json(counted(run.answer)); })
+          .as_counts(""),
+      Field<Run>("predicted", "", "operations, as predicted",
+                 of_prediction([](const Run&, const Counts<double>& counts) { return to_json(counts); }))
+          .as_counts("predicted_"),
       Field<Run>("predicted_error", "", "standard errors of the counts that a pilot predicted",
                  of_pilot([](const Prediction& best) { return to_json(best.counts_error); }))
           .in_json_alone(),

@@ -146,9 +146,9 @@ const Fields<SceneAnswer>& scene_fields() {
           .in_json_alone(),
       Field<Answer>("notices", "", "what was corrected in the input", [](const Answer& a) { return a.job.notices; })
           .in_json_alone(),
-      texts_field<Answer>("warnings", "all that was said on standard error",
-                          [](const Answer& a) { return a.job.all_said(); }),
-      texts_field<Answer>("remarks", "on the samples", [](const Answer& a) { return a.remarks; }),
+      Field<Answer>("warnings", "", "all that was said on standard error",
+                    [](const Answer& a) { return a.job.all_said(); }),
+      Field<Answer>("remarks", "", "on the samples", [](const Answer& a) { return a.remarks; }),
       Field<Answer>("light", "", "how photon paths ended",
                     [](const Answer& a) { return a.job.light ? light_json(*a.job.light) : left_out(); })
           .in_json_alone(),

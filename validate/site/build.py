@@ -74,11 +74,12 @@ def linked(text: str, page: Path, place: Path, pages: Path) -> str:
 def pages_of_answers(build: Path, pages: Path) -> None:
     """What the fields of each command's answer mean, as the command says."""
     commands = ["choose", "run", "model", "validate", "scene", "bench", "accuracy", "calibrate"]
-    text = "# Fields of the answers\n\nAs `detp COMMAND --help fields` prints them.\n"
+    page = pages / "reference" / "answers.md"
+    text = page.read_text(encoding="utf-8")
     for command in commands:
         said = subprocess.run([build / "detp", command, "--help", "fields"], check=True, stdout=subprocess.PIPE, text=True).stdout
         text += f"\n## {command}\n\n```text\n{said}```\n"
-    (pages / "reference" / "answers.md").write_text(text, encoding="utf-8")
+    page.write_text(text, encoding="utf-8")
 
 
 def reference_of_headers(build: Path, site: Path) -> None:

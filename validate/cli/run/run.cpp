@@ -9,6 +9,7 @@
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/validate/accuracy/judged_samples.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
 #include "detp/validate/cli/options/cost_options.hpp"
