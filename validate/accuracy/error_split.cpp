@@ -147,32 +147,9 @@ class Splitter {
   double equal_;
 };
 
-/// Errors of single runs at samples with light; estimates at samples without.
-void add_single_errors(std::span<const std::vector<double>> runs, const ReferenceValues& reference, double rms,
-                       double within, ErrorSplit& split) {
-  std::vector<double> errors;
-  double dark_squares = 0;
-  for (std::size_t i = 0; i < reference.irradiance.size(); ++i) {
-    const bool dark = reference.irradiance[i] == 0;
-    split.dark += dark ? 1 : 0;
-    for (const std::vector<double>& run : runs)
-      if (dark)
-        dark_squares += run[i] * run[i];
-      else
-        errors.push_back(std::abs(run[i] - reference.irradiance[i]) / rms);
-  }
-  if (split.dark > 0)
-    split.light_in_dark = std::sqrt(dark_squares / static_cast<double>(split.dark * runs.size())) / rms;
-  if (errors.empty()) return;
-  const auto inside = std::ranges::count_if(errors, [&](double error) { return error <= within; });
-  split.share_within = static_cast<double>(inside) / static_cast<double>(errors.size());
-  split.worst = *std::ranges::max_element(errors);
-  split.error_95 = quantile(std::move(errors), 0.95);
-}
-
 }  // namespace
 
-ErrorSplit split_error(std::span<const std::vector<double>> runs, const ReferenceValues& reference, double within) {
+ErrorSplit split_error(std::span<const std::vector<double>> runs, const ReferenceValues& reference) {
   require_same_length(runs, reference);
   for (const std::vector<double>& run : runs) require_finite_values(run, "an irradiance");
   require_finite_values(reference.irradiance, "a reference's irradiance");
@@ -207,7 +184,6 @@ ErrorSplit split_error(std::span<const std::vector<double>> runs, const Referenc
                        std::sqrt(Splitter::jackknife(left_out, [](const Sums& one) { return one.mean_bias; }) +
                                  variances.mean_by_reference + variances.mean_by_subset) /
                            mean};
-  add_single_errors(runs, reference, std::sqrt(mean_square), within, split);
   return split;
 }
 
@@ -215,6 +191,30 @@ RootInterval root_of(const Estimate& square, std::size_t runs) {
   const double width = interval_width(0.05, 1, static_cast<int>(runs)) * square.standard_error;
   const auto root = [](double value) { return std::sqrt(std::max(0.0, value)); };
   return {root(square.mean), root(square.mean - width), root(square.mean + width)};
+}
+
+Estimate bias_by_two_radii(std::span<const std::vector<double>> wide, std::span<const std::vector<double>> narrow,
+                           std::span<const double> weights) {
+  if (wide.size() < 3 || wide.size() != narrow.size())
+    throw std::invalid_argument("a bias by two radii needs at least 3 runs with each");
+  const std::size_t discs = weights.size();
+  const auto runs = static_cast<double>(wide.size());
+  std::vector<double> mean(discs);
+  for (const std::vector<double>& run : wide)
+    for (std::size_t i = 0; i < discs; ++i) mean[i] += run[i] / runs;
+  // The differences are runs whose reference is 0; relative errors need another one.
+  std::vector<std::vector<double>> apart;
+  for (std::size_t r = 0; r < wide.size(); ++r) {
+    std::vector<double>& run = apart.emplace_back(mean);
+    for (std::size_t i = 0; i < discs; ++i) run[i] += wide[r][i] - narrow[r][i];
+  }
+  const std::vector<double> exact(discs, 0.0);
+  const ErrorSplit split = split_error(apart, {mean, exact, weights});
+  constexpr double least = 16.0 / 9;
+  constexpr double most = 4;
+  constexpr double middle = 0.5 * (least + most);
+  const double spread = 0.5 * (most - least) * std::max(0.0, split.bias_squared.mean) / 1.96;
+  return {middle * split.bias_squared.mean, std::hypot(middle * split.bias_squared.standard_error, spread)};
 }
 
 }  // namespace detp::validate

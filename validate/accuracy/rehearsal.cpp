@@ -1,12 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 #include "accuracy_pilot.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/estimate/variable_radius.hpp"
-#include "radii.hpp"
 
 namespace detp::validate {
 namespace {
@@ -35,14 +33,6 @@ Part part_of(const std::vector<sim::PathSums>& sums) {
     part.variance.push_back(one.variance());
   }
   return part;
-}
-
-Estimate mean_of(const std::vector<double>& values) {
-  const auto count = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-  double squares = 0;
-  for (const double value : values) squares += std::pow(value - mean, 2);
-  return {mean, std::sqrt(squares / (count - 1) / count)};
 }
 
 }  // namespace
@@ -98,10 +88,11 @@ class PilotMaker::Rehearsal {
     const double of_part = rays() / parts;
     const auto count = static_cast<std::size_t>(
         std::clamp(std::round(sim::pilot_share * answer_rays / of_part), 1.0, static_cast<double>(parts) / 2));
-    std::vector<std::uint64_t> hits(radii_.samples().size());
+    std::vector<std::uint64_t> hits;
     for (std::size_t part = half * parts / 2; part < half * parts / 2 + count; ++part) {
-      const sim::Outcome found = of_.maker_.estimate(paths_[part], radii_.samples(), plain(), false, radii_.relative());
-      for (std::size_t i = 0; i < hits.size(); ++i) hits[i] += found.hits[i];
+      const std::vector<std::uint64_t> found = radii_.hits(of_.maker_, paths_[part], setting_.radius);
+      hits.resize(found.size());
+      for (std::size_t i = 0; i < hits.size(); ++i) hits[i] += found[i];
     }
     return radii_.of(setting_.radius, hits);
   }
@@ -122,8 +113,8 @@ std::optional<PilotMaker::RehearsalSize> PilotMaker::rehearsal_size(const Accura
                                                                     double most_rays, double seconds) const {
   constexpr std::size_t fewest_samples = 2000;
   constexpr double most_fixed = 0.4;  // of the seconds
-  const auto own = std::ranges::find(pilot.estimators, estimator, &EstimatorPilot::estimator);
-  const GrowingSeconds all = own->seconds(scale);
+  const EstimatorPilot& own = pilot.of(estimator);
+  const GrowingSeconds all = own.seconds(scale);
   // areas, and what traces rays, are made once
   const double times = estimator == sim::Estimator::area_corrected ? 1
                        : estimator == sim::Estimator::gather       ? 0
@@ -135,7 +126,7 @@ std::optional<PilotMaker::RehearsalSize> PilotMaker::rehearsal_size(const Accura
     return times * share * (all.fixed - costs_.surfaces(estimator));
   };
   while (fixed() > most_fixed * seconds && size.samples > fewest_samples) size.samples /= 2;
-  double least_rays = own->noise_rays;
+  double least_rays = own.noise_rays;
   double per_ray = pilot.trace.per_ray + all.per_ray;
   if (estimator == sim::Estimator::gather) {
     constexpr double fewest_paths = 2 * parts;
@@ -154,7 +145,7 @@ std::optional<PilotMaker::RehearsalSize> PilotMaker::rehearsal_size(const Accura
 void PilotMaker::rehearse(AccuracyPilot& pilot, const AccuracySetting& setting, double scale, const RehearsalSize& size,
                           double answer_rays) {
   const sim::DefaultFloatingPoint mode;
-  if (options_.progress) options_.progress({"pilot: rehearsal", 0, 1});
+  report("pilot: rehearsal");
   const JudgedSamples more = judged_samples(scene_, size.samples, options_.weights);
   std::vector<std::size_t> places;  // of both
   std::ranges::set_union(more.places, judged_.places, std::back_inserter(places));
@@ -189,24 +180,24 @@ void PilotMaker::rehearse(AccuracyPilot& pilot, const AccuracySetting& setting, 
   // What the photons find at more samples and at those of the judge has the same blur: the ratio is that of what is true.
   const double all = sum_over(more, squares);
   const double at_judged = sum_over(judged_, squares);
-  const Estimate found = mean_of(noise);
-  const auto own = std::ranges::find(pilot.estimators, setting.estimator, &EstimatorPilot::estimator);
-  own->rehearsed = scale;
+  const Estimate found = batch_means(noise);
+  EstimatorPilot& own = pilot.of(setting.estimator);
+  own.rehearsed = scale;
   if (!(all > 0 && at_judged > 0 && found.mean > 0)) return;  // too little light to know better
   const double mean_square = pilot.judged_square * all / at_judged;
   const double times_rays = found.mean / mean_square * rehearsal.rays() / parts;
-  const double ratio = times_rays / own->noise_squared(scale, 1);
+  const double ratio = times_rays / own.noise_squared(scale, 1);
   const double error = found.standard_error / found.mean;
-  const Estimate of_errors = mean_of(errors);
+  const Estimate of_errors = batch_means(errors);
   const double of_run = of_errors.mean > 0 ? std::sqrt(parts) * of_errors.standard_error / of_errors.mean : 0;
   const double both =
-      std::hypot(error, of_run) / std::sqrt(static_cast<double>(own->runs) + 1);  // noise_squared_error()
-  for (SettingPilot& one : own->settings) {
+      std::hypot(error, of_run) / std::sqrt(static_cast<double>(own.runs) + 1);  // noise_squared_error()
+  for (SettingPilot& one : own.settings) {
     const double changed = one.noise_squared_times_rays.mean * ratio;
     one.noise_squared_times_rays = {changed, changed * both};
     one.rare_photons = std::max(1.0, std::pow(std::max(error, 1e-4), -2));
   }
-  own->noise_rays = rehearsal.rays();
+  own.noise_rays = rehearsal.rays();
   if (options_.reference == nullptr) pilot.mean_square = mean_square;  // else runs are compared at the judged samples
 }
 
