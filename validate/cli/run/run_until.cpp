@@ -13,7 +13,6 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/accuracy/accuracy_pilot.hpp"
-#include "detp/validate/accuracy/radii.hpp"
 #include "detp/validate/checkpoint/checkpoint_file.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/job/job.hpp"
@@ -69,9 +68,9 @@ BiasEstimate bias_of(const validate::Job& job, sim::Estimator estimator, double 
                                            .threads = threads,
                                            .stop = stop});
   BiasEstimate bias;
-  std::uint64_t paths = pilots.first_paths();
-  for (double rays = validate::usual_pilot_rays;; rays *= 4, paths *= 4) {
-    const validate::AccuracyPilot pilot = pilots.make(rays, paths);
+  validate::AccuracyPilot pilot;
+  using Size = validate::PilotSize;
+  const auto next = [&](const Size& made) -> std::optional<Size> {
     const validate::EstimatorPilot& own = pilot.estimators.front();
     bias.squared = own.settings.back().bias_squared;
     bias.mean = own.settings.back().mean_bias;
@@ -81,9 +80,11 @@ BiasEstimate bias_of(const validate::Job& job, sim::Estimator estimator, double 
     bias.radius = 0;
     for (const validate::SettingPilot& setting : own.settings)
       if (validate::uses_radius(estimator) && setting.bias_squared.mean <= target * target) bias.radius = setting.scale;
-    const validate::RootInterval interval = bias.interval();
-    if (0.5 * (interval.high - interval.low) <= enough * target || 4 * rays > most_rays) return bias;
-  }
+    if (bias.interval().half_width() <= enough * target || 4 * made.rays > most_rays) return std::nullopt;
+    return Size{4 * made.rays, 4 * made.paths};
+  };
+  escalate(pilots, pilot, {validate::usual_pilot_rays, pilots.first_paths()}, next);
+  return bias;
 }
 
 /// Photons of a job's rays, divided among so many runs by their numbers; of more rays than `most` only some of the photons.
