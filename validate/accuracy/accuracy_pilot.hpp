@@ -137,25 +137,26 @@ class PilotMaker {
   /// Seconds of a pilot after `before`, by AccuracyCosts, without fixed_seconds.
   [[nodiscard]] double predicted_seconds(const PilotSize& size, const AccuracyPilot* before) const;
 
-  /// Whether rehearse knows the estimator: its photons, or paths, bring sums of powers (not nearest).
-  [[nodiscard]] static bool can_rehearse(sim::Estimator estimator);
   struct RehearsalSize {
     double rays = 0;          ///< or backward paths at each sample
     std::size_t samples = 0;  ///< of those that have a weight
     double seconds = 0;       ///< by AccuracyCosts
   };
-  /// With at most so many rays, and in so many seconds; nothing if that is too short to know more than the pilot.
-  [[nodiscard]] std::optional<RehearsalSize> rehearsal_size(const AccuracyPilot& pilot, sim::Estimator estimator,
-                                                            double scale, double most_rays, double seconds) const;
+  /// With at most so many rays, and in so many seconds; nothing if that is too short to know more than the pilot, and of nearest, whose
+  /// photons bring no sums of powers.
+  [[nodiscard]] std::optional<RehearsalSize> rehearsal_size(const AccuracyPilot& pilot, const AccuracySetting& setting,
+                                                            double most_rays, double seconds) const;
   /// Takes the noise of an estimator from more rays, and at more samples, than the pilot, in eight parts: the mean of what sim::finish says of
   /// each part, its error by their spread. `answer_rays`: for which the setting is rehearsed; variable-radius has radii as of so many. What the
   /// pilot said of the estimator's other settings changes in proportion; so does B². Throws as make.
-  void rehearse(AccuracyPilot& pilot, const AccuracySetting& setting, double scale, const RehearsalSize& size,
-                double answer_rays);
+  void rehearse(AccuracyPilot& pilot, const AccuracySetting& setting, const RehearsalSize& size, double answer_rays);
 
  private:
   class Runs;
-  class Rehearsal;
+  struct Part;
+  /// Parts of a rehearsal, at the samples in these places.
+  [[nodiscard]] std::vector<Part> parts_of(const AccuracySetting& setting, double rays,
+                                           const std::vector<std::size_t>& places, double answer_rays);
   void report(const char* doing) const;
   /// The estimators in question with their settings, of runs of so many rays.
   [[nodiscard]] std::vector<EstimatorPilot> settings_of(double rays_of_run) const;

@@ -62,25 +62,28 @@ class Planner {
       make_pilots();
       rehearse();
     } catch (const sim::Stopped&) {
-      if (!found_.plan) throw;
+      if (found_.pilot.estimators.empty()) throw;
       found_.stopped = true;
     }
     found_.pilot.seconds = watch_.seconds();
-    return {std::move(found_.pilot), std::move(*found_.plan), found_.stopped};
+    return std::move(found_);
   }
 
  private:
   [[nodiscard]] double price() const {
-    return std::max(options_.least_price, options_.price * found_.plan->answer.seconds);
+    return std::max(options_.least_price, options_.price * found_.plan.answer.seconds);
   }
 
   /// Seconds of the price that are kept for a rehearsal of the answer.
   [[nodiscard]] double reserved() const {
-    const AccuracyPoint& best = found_.plan->answer;
-    if (!PilotMaker::can_rehearse(best.estimator)) return 0;
-    const auto size = maker_.rehearsal_size(found_.pilot, best.estimator, best.scale(), most_share * best.rays,
-                                            (1 - share_of_pilots) * price());
+    const auto size = rehearsal_size((1 - share_of_pilots) * price());
     return size ? size->seconds : 0;
+  }
+
+  [[nodiscard]] std::optional<PilotMaker::RehearsalSize> rehearsal_size(double seconds) const {
+    constexpr double most_share = 0.25;  // of the answer's rays
+    const AccuracyPoint& best = found_.plan.answer;
+    return maker_.rehearsal_size(found_.pilot, best.setting(), most_share * best.rays, seconds);
   }
 
   /// Until the bias is known well enough, or would cost too much.
@@ -100,15 +103,15 @@ class Planner {
     constexpr double enough = 0.2;           // of the target, for half the width of the bias's interval
     constexpr double deciding_share = 0.25;  // of the variance of bias²
     constexpr double most_pilot_rays = 4e7;
-    const AccuracyPoint& best = found_.plan->answer;
+    const AccuracyPoint& best = found_.plan.answer;
     const double wanted = enough * (target_.kind == AccuracyTarget::Kind::seconds ? best.total.value : target_.value);
-    const AccuracyPoint& open = least_known(*found_.plan, wanted);
+    const AccuracyPoint& open = least_known(found_.plan, wanted);
     if (open.bias.half_width() <= wanted || made.rays > most_pilot_rays) return std::nullopt;
     const double by_reference = found_.pilot.of(open.estimator).by_reference;
     const bool by_paths = by_reference > deciding_share && options_.reference == nullptr;
     const bool by_rays = by_reference < 1 - deciding_share;
     if (!by_rays && !by_paths) return std::nullopt;
-    settle(found_.pilot, *found_.plan);
+    settle(found_.pilot, found_.plan);
     for (double more = 4; more >= 1.4; more /= std::sqrt(2)) {
       PilotSize next = made;
       if (by_rays) next.rays *= more;
@@ -122,30 +125,23 @@ class Planner {
   void rehearse() {
     constexpr double near = 1.3;  // scales
     for (;;) {
-      const AccuracyPoint& best = found_.plan->answer;
+      const AccuracyPoint& best = found_.plan.answer;
       const double rehearsed = found_.pilot.of(best.estimator).rehearsed;
-      if (!PilotMaker::can_rehearse(best.estimator)) return;
       if (rehearsed > 0 && best.scale() < near * rehearsed && rehearsed < near * best.scale()) return;
-      const auto size = maker_.rehearsal_size(found_.pilot, best.estimator, best.scale(), most_share * best.rays,
-                                              price() - predicted_);
+      const auto size = rehearsal_size(price() - predicted_);
       if (!size) return;
       predicted_ += size->seconds;
-      maker_.rehearse(found_.pilot, best.setting(), best.scale(), *size, best.rays);
+      maker_.rehearse(found_.pilot, best.setting(), *size, best.rays);
       found_.plan = plan_accuracy(found_.pilot, target_, most_rays_);
     }
   }
 
-  static constexpr double most_share = 0.25;  // of the answer's rays, in a rehearsal
   AccuracyTarget target_;
   AccuracyPilotOptions options_;
   double most_rays_;
   sim::Stopwatch watch_;
   PilotMaker maker_;
-  struct {
-    AccuracyPilot pilot;
-    std::optional<AccuracyPlan> plan;
-    bool stopped = false;
-  } found_;
+  PilotedPlan found_;
   double predicted_;  // seconds of all pilots, with what they need
 };
 

@@ -340,11 +340,11 @@ TEST_SUITE("identity") {
       AccuracyPilot pilot = maker.make({4000, 16});
       const AccuracySetting setting{estimator, uses_radius(estimator) ? radius : 0};
       const double scale = uses_radius(estimator) ? radius : 1;
-      CHECK_FALSE(maker.rehearsal_size(pilot, estimator, scale, 1000, 10));  // fewer rays than the pilot
-      const auto size = maker.rehearsal_size(pilot, estimator, scale, rays / 2, 10);
+      CHECK_FALSE(maker.rehearsal_size(pilot, setting, 1000, 10));  // fewer rays than the pilot
+      const auto size = maker.rehearsal_size(pilot, setting, rays / 2, 10);
       REQUIRE(size);
       CHECK(size->samples == scene.samples.size());
-      maker.rehearse(pilot, setting, scale, *size, rays);
+      maker.rehearse(pilot, setting, *size, rays);
       CHECK(pilot.estimators.front().rehearsed == scale);
       const double promised = std::sqrt(pilot.estimators.front().noise_squared(scale, rays));
       const AccuracyPoint point{.estimator = estimator, .rays = rays, .radius = setting.radius};

@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "detp/model/vocabulary/checks.hpp"
@@ -96,12 +95,10 @@ validate::AccuracyRequest request_of(const AccuracyOptions& options, const Commo
   if (options.seeds) {
     const SeedRange seeds = parse_seeds("--seeds", *options.seeds);
     request.seeds = {seeds.first, seeds.last};
-    validate::check(*request.seeds);
   }
   for (const std::string& axis : options.axes)
     request.axes.push_back(named<validate::AccuracyAxis>("--axis", axis, validate::accuracy_axes));
   require_count("--rays", request.most_rays, 1000, 1e12);
-  validate::check(request.target, request.most_rays);
   if (options.samples) {
     require_count("--samples", *options.samples, 1, 1e9);
     request.scene.samples = static_cast<std::size_t>(*options.samples);
@@ -111,14 +108,6 @@ validate::AccuracyRequest request_of(const AccuracyOptions& options, const Commo
   if (options.crease) request.crease = parse_crease(*options.crease);
   request.estimators = estimators_of(options);
   return request;
-}
-
-/// The curve has a point with the answer's number of rays.
-bool is_answer(const AccuracyAnswer& answer, const AccuracyPoint& point) {
-  constexpr double alike = 0.01;
-  const AccuracyPoint& best = answer.plan.answer;
-  return point.estimator == best.estimator && std::abs(point.rays / best.rays - 1) < alike &&
-         std::abs(point.radius - best.radius) <= alike * best.radius;
 }
 
 /// A table for each axis.
@@ -182,23 +171,9 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
                {fmt::format("{:.2g}", point.seconds)},
                {remark}});
   };
-  std::vector<AccuracyPoint> shown;
-  for (const AccuracyPoint& point : answer.plan.points)
-    if (point.on_frontier && point.total.value < 1 && !is_answer(answer, point)) shown.push_back(point);
-  std::ranges::sort(shown, {}, &AccuracyPoint::seconds);
-  // of points that are equally fast, the most accurate one
-  std::vector<AccuracyPoint> best;
-  for (const AccuracyPoint& point : shown)
-    if (best.empty() || point.total.value < best.back().total.value) best.push_back(point);
-  // those around the answer
   constexpr std::size_t rows_shown = 7;
-  const auto distance = [&](const AccuracyPoint& point) {
-    return std::abs(std::log(point.seconds / answer.plan.answer.seconds));
-  };
-  while (best.size() > rows_shown)
-    best.erase(distance(best.front()) > distance(best.back()) ? best.begin() : best.end() - 1);
   bool answered = false;
-  for (const AccuracyPoint& point : best) {
+  for (const AccuracyPoint& point : points_around_answer(answer.plan, rows_shown)) {
     if (!answered && point.seconds >= answer.plan.answer.seconds) {
       add(answer.plan.answer, "<- answer");
       answered = true;
