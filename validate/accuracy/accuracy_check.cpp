@@ -15,7 +15,6 @@
 #include "detp/sim/ranks/farm.hpp"
 #include "detp/validate/base/json.hpp"
 #include "judged_samples.hpp"
-#include "radii.hpp"
 
 namespace detp::validate {
 namespace {
@@ -104,10 +103,8 @@ double noise_squared(const ReplicateMaker& maker, const sim::Scene& scene, const
     of_half = {sim::Estimator::disc, point.radius};
     const PilotRadii by_pilot(scene, judged.places, judged.population, options.relative);
     const auto first = static_cast<std::uint64_t>(sim::pilot_share * static_cast<double>(whole.paths.photon_count));
-    radii = by_pilot.of(point.radius, maker
-                                          .estimate(first_photons(whole.paths, std::max<std::uint64_t>(1, first)),
-                                                    by_pilot.samples(), of_half, false, by_pilot.relative())
-                                          .hits);
+    const sim::PathRays pilot = first_photons(whole.paths, std::max<std::uint64_t>(1, first));
+    radii = by_pilot.of(point.radius, by_pilot.hits(maker, pilot, point.radius));
     all = maker.estimate(whole.paths, judged.samples, of_half, false, radii).irradiance;
   }
   const auto half =

@@ -11,7 +11,6 @@
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/photons/light_notes.hpp"
-#include "radii.hpp"
 
 namespace detp::validate {
 namespace {
@@ -34,59 +33,55 @@ class PilotMaker::Runs {
  public:
   Runs(PilotMaker& of, double rays, const AccuracyPilot* before)
       : of_(of),
-        options_(of.options_),
         before_(before),
-        radii_of_others_(of.scene_, of.judged_.places, of.judged_.population, of.options_.relative) {
+        radii_of_others_(of.scene_, of.judged_.places, of.judged_.population, of.options_.relative),
+        rays_of_run_(std::max<std::size_t>(200, static_cast<std::size_t>(rays / runs))) {
     pilot_.sample_distance = of.edge_;
     pilot_.trace = of.costs_.trace();
-    radii_ = of.radii();
-    rays_of_run_ = std::max<std::size_t>(200, static_cast<std::size_t>(rays / runs));
-    for (std::size_t place : of.judged_.places)
-      if (!options_.relative.empty()) relative_.push_back(options_.relative[place]);
+    pilot_.rays = static_cast<double>(runs * rays_of_run_);
     pilot_.estimators = of.settings_of(static_cast<double>(rays_of_run_));
+    if (!of.options_.relative.empty()) relative_ = of.judged_.of_all(of.options_.relative);
   }
 
   /// `reference`: the truth; `by_paths`: what gather finds.
   AccuracyPilot make(const Reference& reference, const Reference& by_paths) && {
     pilot_.casts_per_path = by_paths.casts_per_path;
     pilot_.mean_square = pilot_.judged_square = reference.mean_square();
-    report("pilot: tracing");
+    of_.report("pilot: tracing");
     trace();
     if (!(pilot_.mean_square > 0)) throw NoLight(without_light());
-    report("pilot: estimators");
-    for (EstimatorPilot& one : pilot_.estimators)
-      if (one.estimator != sim::Estimator::gather) measure(one, reference);
-    const auto by_photons = [](const EstimatorPilot& one) { return one.estimator != sim::Estimator::gather; };
-    if (!met_ && std::ranges::any_of(pilot_.estimators, by_photons)) throw NoLight(without_light());
-    for (EstimatorPilot& one : pilot_.estimators)
-      if (one.estimator == sim::Estimator::gather) measure_gather(one, by_paths);
-    pilot_.rays = pilot_rays();
+    of_.report("pilot: estimators");
+    bool by_photons = false;
+    for (EstimatorPilot& one : pilot_.estimators) {
+      const bool gathers = one.estimator == sim::Estimator::gather;
+      by_photons = by_photons || !gathers;
+      if (gathers)
+        measure_gather(one, by_paths);
+      else
+        measure(one, reference);
+    }
+    if (by_photons && !met_) throw NoLight(without_light());
     pilot_.judge = {reference.kind,    reference.paths,   reference.photons,    reference.judged.samples.size(),
                     reference.error(), reference.seconds, reference.missed_mean};
-    pilot_.seconds = watch_.seconds();
     return std::move(pilot_);
   }
 
  private:
-  void report(const char* doing) {
-    if (options_.progress) options_.progress({doing, 0, 1});
-  }
-
   /// Makes the paths of all runs.
   void trace() {
     double photons = 0;
     of_.maker_.decide_overshoot();
     for (std::size_t run = 0; run < runs; ++run) {
-      sim::TracedPaths traced = of_.maker_.trace(rays_of_run_, seed(run), radii_.back());
+      sim::TracedPaths traced = of_.maker_.trace(rays_of_run_, seed(run), of_.options_.radii.back());
       pilot_.light += traced.light;
       paths_.push_back(std::move(traced));
       photons += static_cast<double>(paths_.back().photon_count);
     }
-    pilot_.photons_per_ray = photons / static_cast<double>(runs * rays_of_run_);
+    pilot_.photons_per_ray = photons / pilot_.rays;
   }
 
   [[nodiscard]] std::uint64_t seed(std::size_t run) const {
-    return options_.seed * 0x9e3779b97f4a7c15ULL + 7919 * (run + 1);
+    return of_.options_.seed * 0x9e3779b97f4a7c15ULL + 7919 * (run + 1);
   }
 
   /// The irradiance of the runs at the judged samples.
@@ -98,32 +93,29 @@ class PilotMaker::Runs {
   [[nodiscard]] Found runs_of(const AccuracySetting& setting) {
     const double overshoot = of_.maker_.overshoot(uses_radius(setting.estimator) ? setting.radius : 0);
     std::vector<std::vector<sim::Ray>> rays;
-    for (const sim::Paths& paths : paths_) rays.push_back(with_overshoot(paths, of_.scene_, overshoot));
-    const auto estimate = [&](std::size_t run, std::span<const sim::Sample> samples, const AccuracySetting& one,
-                              std::span<const double> relative) {
-      sim::PathRays same = paths_[run];
-      same.rays = rays[run];
-      return of_.maker_.estimate(same, samples, one, false, relative);
-    };
-    const std::vector<sim::Sample>& judged = of_.judged_.samples;
-    const AccuracySetting plain{sim::Estimator::disc, setting.radius};
+    std::vector<sim::PathRays> paths;
+    for (const sim::Paths& one : paths_) {
+      paths.emplace_back(one).rays = rays.emplace_back(with_overshoot(one, of_.scene_, overshoot));
+    }
     const bool varies = setting.estimator == sim::Estimator::variable_radius;
     std::vector<std::vector<std::uint64_t>> hits;
-    std::vector<std::uint64_t> all_hits(radii_of_others_.samples().size());
+    std::vector<std::uint64_t> all_hits;
     for (std::size_t run = 0; varies && run < runs; ++run) {
-      hits.push_back(estimate(run, radii_of_others_.samples(), plain, radii_of_others_.relative()).hits);
+      hits.push_back(radii_of_others_.hits(of_.maker_, paths[run], setting.radius));
+      all_hits.resize(hits.back().size());
       for (std::size_t i = 0; i < all_hits.size(); ++i) all_hits[i] += hits.back()[i];
     }
     Found all;
     for (std::size_t run = 0; run < runs; ++run) {
-      sim::Outcome outcome;
+      AccuracySetting of_run = setting;
+      std::vector<double> radii = relative_;
       if (varies) {
+        of_run.estimator = sim::Estimator::disc;
         std::vector<std::uint64_t> others = all_hits;
         for (std::size_t i = 0; i < others.size(); ++i) others[i] -= hits[run][i];
-        outcome = estimate(run, judged, plain, radii_of_others_.of(setting.radius, others));
-      } else {
-        outcome = estimate(run, judged, setting, relative_);
+        radii = radii_of_others_.of(setting.radius, others);
       }
+      sim::Outcome outcome = of_.maker_.estimate(paths[run], of_.judged_.samples, of_run, false, radii);
       all.irradiance.push_back(std::move(outcome.irradiance));
       all.hits += static_cast<double>(outcome.total_hits);
     }
@@ -136,43 +128,29 @@ class PilotMaker::Runs {
                        of_.scene_.name, reasons.empty() ? "do samples lie where the light is?" : reasons.front());
   }
 
-  [[nodiscard]] const EstimatorPilot* earlier(sim::Estimator estimator) const {
-    if (before_ == nullptr) return nullptr;
-    const auto found = std::ranges::find(before_->estimators, estimator, &EstimatorPilot::estimator);
-    return found == before_->estimators.end() ? nullptr : &*found;
-  }
-  /// The earlier pilot of an estimator that is settled at all settings; else null.
-  [[nodiscard]] const EstimatorPilot* settled_whole(sim::Estimator estimator) const {
-    const EstimatorPilot* one = earlier(estimator);
-    return one != nullptr && std::ranges::all_of(one->settings, &SettingPilot::settled) ? one : nullptr;
-  }
-  /// The earlier pilot, if its settings are those of this one; else null.
-  [[nodiscard]] const EstimatorPilot* settled_part(const EstimatorPilot& one) const {
-    return uses_radius(one.estimator) ? earlier(one.estimator) : nullptr;
-  }
-
   void measure(EstimatorPilot& one, const Reference& reference) {
-    if (const EstimatorPilot* all = settled_whole(one.estimator)) {
-      one = *all;
+    const EstimatorPilot* const earlier = before_ != nullptr ? &before_->of(one.estimator) : nullptr;
+    if (earlier != nullptr && std::ranges::all_of(earlier->settings, &SettingPilot::settled)) {
+      one = *earlier;
       met_ = true;
       return;
     }
     double variance = 0;
     double by_reference = 0;
-    const EstimatorPilot* earlier = settled_part(one);
     for (std::size_t i = 0; i < one.settings.size(); ++i) {
       SettingPilot& setting = one.settings[i];
-      if (earlier != nullptr && earlier->settings[i].settled) {
+      // radii are the same as before; others change with the number of rays
+      if (earlier != nullptr && uses_radius(one.estimator) && earlier->settings[i].settled) {
         setting = earlier->settings[i];
         continue;
       }
       const Found found = runs_of(setting.setting);
-      setting.seconds = of_.seconds_of(setting, found.hits / pilot_rays());
+      setting.seconds = of_.seconds_of(setting, found.hits / pilot_.rays);
       for (const auto& run : found.irradiance)
         met_ = met_ || std::ranges::any_of(run, [](double one) { return one > 0; });
       const ErrorSplit split = split_error(found.irradiance, reference.values());
       // a photon that meets several discs brings as many terms
-      const double of_photon = std::max(1.0, found.hits / (pilot_rays() * pilot_.photons_per_ray));
+      const double of_photon = std::max(1.0, found.hits / (pilot_.rays * pilot_.photons_per_ray));
       if (split.noise_terms > 0) setting.rare_photons = std::max(1.0, split.noise_terms / of_photon);
       setting.noise_squared_times_rays = scaled(split.noise_squared, static_cast<double>(rays_of_run_));
       setting.bias_squared = split.bias_squared;
@@ -181,11 +159,9 @@ class PilotMaker::Runs {
       by_reference += split.by_reference;
     }
     one.runs = runs;
-    one.noise_rays = pilot_rays();
+    one.noise_rays = pilot_.rays;
     one.by_reference = variance > 0 ? by_reference / variance : 0;
   }
-
-  [[nodiscard]] double pilot_rays() const { return static_cast<double>(runs * rays_of_run_); }
 
   /// Rays are backward paths of one sample, on each side.
   void measure_gather(EstimatorPilot& one, const Reference& reference) const {
@@ -203,17 +179,22 @@ class PilotMaker::Runs {
   }
 
   PilotMaker& of_;
-  const AccuracyPilotOptions& options_;
   const AccuracyPilot* before_;
-  sim::Stopwatch watch_;
   AccuracyPilot pilot_;
-  std::vector<double> radii_;
   std::vector<double> relative_;
   PilotRadii radii_of_others_;
-  std::size_t rays_of_run_ = 0;
+  std::size_t rays_of_run_;
   std::vector<sim::Paths> paths_;
   bool met_ = false;  ///< some photon met some sample
 };
+
+EstimatorPilot& AccuracyPilot::of(sim::Estimator estimator) {
+  return *std::ranges::find(estimators, estimator, &EstimatorPilot::estimator);
+}
+
+const EstimatorPilot& AccuracyPilot::of(sim::Estimator estimator) const {
+  return *std::ranges::find(estimators, estimator, &EstimatorPilot::estimator);
+}
 
 PilotMaker::PilotMaker(sim::Scene& scene, AccuracyPilotOptions options)
     : scene_(scene),
@@ -223,6 +204,8 @@ PilotMaker::PilotMaker(sim::Scene& scene, AccuracyPilotOptions options)
       edge_(sim::mean_edge_length(scene.mesh, options_.stop)) {
   if (!(edge_ > 0))
     throw std::invalid_argument("accuracy needs a mesh with triangles; " + scene.name + " has none with edges");
+  if (options_.radii.empty())
+    for (const double share : radii_over_distance) options_.radii.push_back(share * edge_);
   judged_ = options_.reference != nullptr ? options_.reference->judged
                                           : judged_samples(scene, samples_judged, options_.weights);
   const ReferenceOptions judge{.seed = options_.seed,
@@ -235,17 +218,11 @@ PilotMaker::PilotMaker(sim::Scene& scene, AccuracyPilotOptions options)
 
 PilotMaker::~PilotMaker() = default;
 
-std::uint64_t PilotMaker::first_paths() const {
-  constexpr std::uint64_t of_all = 64 * samples_judged;
-  return options_.paths > 0 ? options_.paths : of_all / judged_.samples.size();
+void PilotMaker::report(const char* doing) const {
+  if (options_.progress) options_.progress({doing, 0, 1});
 }
 
-std::vector<double> PilotMaker::radii() const {
-  if (!options_.radii.empty()) return options_.radii;
-  std::vector<double> radii;
-  for (const double share : radii_over_distance) radii.push_back(share * edge_);
-  return radii;
-}
+std::uint64_t PilotMaker::first_paths() const { return 64 * samples_judged / judged_.samples.size(); }
 
 std::vector<EstimatorPilot> PilotMaker::settings_of(double rays_of_run) const {
   std::vector<EstimatorPilot> all;
@@ -255,13 +232,10 @@ std::vector<EstimatorPilot> PilotMaker::settings_of(double rays_of_run) const {
       continue;
     EstimatorPilot& pilot = all.emplace_back(EstimatorPilot{.estimator = estimator, .settings = {}});
     const auto add = [&](const AccuracySetting& setting, double scale) {
-      SettingPilot one;
-      one.setting = setting;
-      one.scale = scale;
-      pilot.settings.push_back(one);
+      pilot.settings.push_back({.setting = setting, .scale = scale});
     };
     if (uses_radius(estimator))
-      for (const double radius : radii()) add({estimator, radius}, radius);
+      for (const double radius : options_.radii) add({estimator, radius}, radius);
     else if (estimator == sim::Estimator::nearest)
       for (const int k : nearest_of_run) add({.estimator = estimator, .nearest = k}, k / rays_of_run);
     else
@@ -283,12 +257,12 @@ double PilotMaker::fixed_seconds() const {
   return costs_.caster() + surfaces;
 }
 
-double PilotMaker::predicted_seconds(double rays, std::uint64_t paths, const AccuracyPilot* before) const {
+double PilotMaker::predicted_seconds(const PilotSize& size, const AccuracyPilot* before) const {
   constexpr double usual_casts_per_path = 5;
   const auto samples = static_cast<double>(judged_.samples.size());
   const double share = samples / static_cast<double>(scene_.samples.size());
-  const double of_run = std::max(rays / runs, 1.0);
-  double seconds = costs_.trace().per_ray * rays;
+  const double of_run = std::max(size.rays / runs, 1.0);
+  double seconds = costs_.trace().per_ray * size.rays;
   const std::vector<EstimatorPilot> first = before != nullptr ? std::vector<EstimatorPilot>() : settings_of(of_run);
   for (const EstimatorPilot& one : before != nullptr ? before->estimators : first) {
     if (one.estimator == sim::Estimator::gather) continue;
@@ -303,8 +277,8 @@ double PilotMaker::predicted_seconds(double rays, std::uint64_t paths, const Acc
       seconds += times * (all.fixed - of_surfaces) * share + runs * of_ray * of_run;
     }
   }
-  const double more = static_cast<double>(paths) / static_cast<double>(first_paths());
-  const auto added = static_cast<double>(paths - std::min(paths, paths_made_));
+  const double more = static_cast<double>(size.paths) / static_cast<double>(first_paths());
+  const auto added = static_cast<double>(size.paths - std::min(size.paths, paths_made_));
   seconds += samples * added * costs_.path(before != nullptr ? before->casts_per_path : usual_casts_per_path);
   constexpr double pieces_followed = 3;  // of a photon for missed light: to the first surface, and some to the samples
   if (judge_->misses_light())
@@ -312,23 +286,22 @@ double PilotMaker::predicted_seconds(double rays, std::uint64_t paths, const Acc
   return seconds;
 }
 
-double PilotMaker::first_rays() const {
-  if (options_.rays > 0) return options_.rays;
+PilotSize PilotMaker::first_size() const {
   constexpr double fewest = 4000;
-  double rays = usual_pilot_rays;
-  while (rays > fewest && predicted_seconds(rays, first_paths(), nullptr) > share_of_pilots * options_.least_price)
-    rays /= 1.25;
-  return rays;
+  PilotSize size{usual_pilot_rays, first_paths()};
+  while (size.rays > fewest && predicted_seconds(size, nullptr) > share_of_pilots * options_.least_price)
+    size.rays /= 1.25;
+  return size;
 }
 
-AccuracyPilot PilotMaker::make(double rays, std::uint64_t paths, const AccuracyPilot* before) {
+AccuracyPilot PilotMaker::make(const PilotSize& size, const AccuracyPilot* before) {
   const sim::DefaultFloatingPoint mode;
   const sim::Stopwatch watch;
-  Runs all(*this, rays, before);
-  if (options_.progress) options_.progress({"pilot: backward paths", 0, 1});
-  judge_->add_paths(paths);  // in all
-  paths_made_ = std::max(paths_made_, paths);
-  const double more = static_cast<double>(paths) / static_cast<double>(first_paths());
+  Runs all(*this, size.rays, before);
+  report("pilot: backward paths");
+  judge_->add_paths(size.paths);
+  paths_made_ = std::max(paths_made_, size.paths);
+  const double more = static_cast<double>(size.paths) / static_cast<double>(first_paths());
   judge_->add_photons(static_cast<std::uint64_t>(more * first_photons_of_a_batch), batches_of_missed_light);
   const Reference& by_paths = judge_->reference();
   AccuracyPilot pilot = std::move(all).make(options_.reference != nullptr ? *options_.reference : by_paths, by_paths);
@@ -336,9 +309,13 @@ AccuracyPilot PilotMaker::make(double rays, std::uint64_t paths, const AccuracyP
   return pilot;
 }
 
-AccuracyPilot make_accuracy_pilot(sim::Scene& scene, const AccuracyPilotOptions& options) {
-  PilotMaker maker(scene, options);
-  return maker.make(maker.first_rays(), maker.first_paths());
+void escalate(PilotMaker& maker, AccuracyPilot& pilot, PilotSize size,
+              const std::function<std::optional<PilotSize>(const PilotSize& made)>& next) {
+  pilot = maker.make(size);
+  while (const std::optional<PilotSize> wanted = next(size)) {
+    size = *wanted;
+    pilot = maker.make(size, &pilot);
+  }
 }
 
 }  // namespace detp::validate

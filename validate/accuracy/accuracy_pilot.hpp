@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -23,9 +24,9 @@ struct SettingPilot {
   AccuracySetting setting;
   /// What the setting is: the radius; of nearest, k over the number of pieces of paths; 1 for those without a setting.
   double scale = 1;
-  Estimate noise_squared_times_rays;  ///< noise² falls with the number of rays as 1/rays
-  Estimate bias_squared;              ///< does not; may be below 0
-  Estimate mean_bias;                 ///< signed, relative to the mean irradiance
+  Estimate noise_squared_times_rays = {};  ///< noise² falls with the number of rays as 1/rays
+  Estimate bias_squared = {};              ///< does not; may be below 0
+  Estimate mean_bias = {};                 ///< signed, relative to the mean irradiance
   /// So many photons, if all brought the same, would bring the noise² of the pilot; of a rehearsal, 1 over its relative variance.
   double rare_photons = 1e9;
   GrowingSeconds seconds = {};  ///< of an estimate at all samples, without tracing
@@ -79,20 +80,27 @@ struct AccuracyPilot {
   double rays = 0;              ///< of all runs together
   double seconds = 0;           ///< that the pilot took
   sim::LightLedger light = {};  ///< of its photons
+
+  /// What it found of an estimator that it has.
+  [[nodiscard]] EstimatorPilot& of(sim::Estimator estimator);
+  [[nodiscard]] const EstimatorPilot& of(sim::Estimator estimator) const;
 };
 
 inline constexpr double usual_pilot_rays = 40'000;
+/// Of a pilot.
+struct PilotSize {
+  double rays = usual_pilot_rays;  ///< pieces of photon paths, of all runs together
+  std::uint64_t paths = 0;         ///< backward paths of each sample, on each side, with those of the pilots before
+};
 /// Of the price of planning, for pilots; the rest is for rehearsals.
 inline constexpr double share_of_pilots = 0.85;
 
 struct AccuracyPilotOptions {
   std::vector<sim::Estimator> estimators;  ///< empty: all
-  double rays = 0;                         ///< of all runs of the pilot together; 0: PilotMaker::first_rays
-  std::uint64_t paths = 0;         ///< of the judge, for each sample, on each side; 0: 64000 for all samples together
-  std::vector<double> radii = {};  ///< of discs, rising; empty: from a quarter to twice the mean edge
-  std::span<const double> relative = {};  ///< radii of the scene's samples over those; none: 1
-  std::span<const double> weights = {};   ///< of the scene's samples, with sum 1; none: by area
-  const Reference* reference = nullptr;   ///< the judge, if it was made before; it must outlive the pilot
+  std::vector<double> radii = {};          ///< of discs, rising; empty: from a quarter to twice the mean edge
+  std::span<const double> relative = {};   ///< radii of the scene's samples over those; none: 1
+  std::span<const double> weights = {};    ///< of the scene's samples, with sum 1; none: by area
+  const Reference* reference = nullptr;    ///< the judge, if it was made before; it must outlive the pilot
   double price = 0.3;        ///< pilots may together take so many times as long as the answer that they find
   double least_price = 0.5;  ///< seconds that they may always take
   bool front_facing = false;
@@ -119,36 +127,37 @@ class PilotMaker {
   /// 1000 of the scene's samples; errors and their intervals as in split_error, against backward paths (Reference), which share nothing
   /// with the estimators. The estimator `gather` is judged by the variance of these paths; its bias is the light that they miss. Settings that an earlier pilot `before` has settled are
   /// its own. Throws NoLight; sim::Stopped on a stop request.
-  [[nodiscard]] AccuracyPilot make(double rays, std::uint64_t paths, const AccuracyPilot* before = nullptr);
-  /// Paths of each sample for a first pilot.
+  [[nodiscard]] AccuracyPilot make(const PilotSize& size, const AccuracyPilot* before = nullptr);
+  /// Paths of each sample for a first pilot: 64 000 for all judged samples together.
   [[nodiscard]] std::uint64_t first_paths() const;
-  /// Rays of a first pilot: usual_pilot_rays, or fewer if these would take longer than options.least_price.
-  [[nodiscard]] double first_rays() const;
+  /// Of a first pilot: fewer rays than usual_pilot_rays if these would take longer than options.least_price.
+  [[nodiscard]] PilotSize first_size() const;
   /// Seconds of making what traces rays, and of what estimators need of the mesh, once for all pilots, by AccuracyCosts.
   [[nodiscard]] double fixed_seconds() const;
-  /// Seconds of a pilot with so many rays and paths in all, after `before`, by AccuracyCosts, without fixed_seconds.
-  [[nodiscard]] double predicted_seconds(double rays, std::uint64_t paths, const AccuracyPilot* before) const;
+  /// Seconds of a pilot after `before`, by AccuracyCosts, without fixed_seconds.
+  [[nodiscard]] double predicted_seconds(const PilotSize& size, const AccuracyPilot* before) const;
 
-  /// Whether rehearse knows the estimator: its photons, or paths, bring sums of powers (not nearest).
-  [[nodiscard]] static bool can_rehearse(sim::Estimator estimator);
   struct RehearsalSize {
     double rays = 0;          ///< or backward paths at each sample
     std::size_t samples = 0;  ///< of those that have a weight
     double seconds = 0;       ///< by AccuracyCosts
   };
-  /// With at most so many rays, and in so many seconds; nothing if that is too short to know more than the pilot.
-  [[nodiscard]] std::optional<RehearsalSize> rehearsal_size(const AccuracyPilot& pilot, sim::Estimator estimator,
-                                                            double scale, double most_rays, double seconds) const;
+  /// With at most so many rays, and in so many seconds; nothing if that is too short to know more than the pilot, and of nearest, whose
+  /// photons bring no sums of powers.
+  [[nodiscard]] std::optional<RehearsalSize> rehearsal_size(const AccuracyPilot& pilot, const AccuracySetting& setting,
+                                                            double most_rays, double seconds) const;
   /// Takes the noise of an estimator from more rays, and at more samples, than the pilot, in eight parts: the mean of what sim::finish says of
   /// each part, its error by their spread. `answer_rays`: for which the setting is rehearsed; variable-radius has radii as of so many. What the
   /// pilot said of the estimator's other settings changes in proportion; so does B². Throws as make.
-  void rehearse(AccuracyPilot& pilot, const AccuracySetting& setting, double scale, const RehearsalSize& size,
-                double answer_rays);
+  void rehearse(AccuracyPilot& pilot, const AccuracySetting& setting, const RehearsalSize& size, double answer_rays);
 
  private:
   class Runs;
-  class Rehearsal;
-  [[nodiscard]] std::vector<double> radii() const;
+  struct Part;
+  /// Parts of a rehearsal, at the samples in these places.
+  [[nodiscard]] std::vector<Part> parts_of(const AccuracySetting& setting, double rays,
+                                           const std::vector<std::size_t>& places, double answer_rays);
+  void report(const char* doing) const;
   /// The estimators in question with their settings, of runs of so many rays.
   [[nodiscard]] std::vector<EstimatorPilot> settings_of(double rays_of_run) const;
   /// Of a setting at all samples; `judged_hits_per_ray`: at those that are judged.
@@ -164,7 +173,9 @@ class PilotMaker {
   std::uint64_t paths_made_ = 0;  ///< of the judge, at each sample
 };
 
-/// One pilot, with the options' rays and paths.
-[[nodiscard]] AccuracyPilot make_accuracy_pilot(sim::Scene& scene, const AccuracyPilotOptions& options);
+/// Makes pilots until what is asked for is known: `next` looks at `pilot`, may settle some of its settings, and says how large the next one
+/// has to be; after nothing, no more is made. Throws as PilotMaker::make: `pilot` is then the one before.
+void escalate(PilotMaker& maker, AccuracyPilot& pilot, PilotSize size,
+              const std::function<std::optional<PilotSize>(const PilotSize& made)>& next);
 
 }  // namespace detp::validate

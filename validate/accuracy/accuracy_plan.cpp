@@ -79,20 +79,29 @@ class Ways {
 
   /// Nothing if no setting and number of rays reach the target.
   [[nodiscard]] std::optional<AccuracyPoint> reach(const AccuracyTarget& target) const {
-    using enum AccuracyTarget::Kind;
-    return target.kind == noise   ? reach_noise(target.value)
-           : target.kind == total ? reach_total(target.value)
-                                  : best_in(target.value);
+    if (target.kind == AccuracyTarget::Kind::seconds) return best_in(target.value);
+    const double square = square_of(target.value);
+    if (target.kind == AccuracyTarget::Kind::total)
+      return best(
+          [&](double scale) {
+            const double bias = expected_square(own_.bias_squared(scale));
+            return bias > share_for_bias * target.value * target.value ? std::numeric_limits<double>::infinity()
+                                                                       : own_.noise_squared(scale, 1) / (square - bias);
+          },
+          [](const AccuracyPoint& a, const AccuracyPoint& b) { return a.seconds < b.seconds; });
+    // the largest setting with a bias below the noise; else the one with the least bias
+    return best([&](double scale) { return own_.noise_squared(scale, 1) / square; },
+                [&](const AccuracyPoint& a, const AccuracyPoint& b) {
+                  const bool below = a.bias.value <= target.value;
+                  if (below != (b.bias.value <= target.value)) return below;
+                  return below ? a.seconds <= b.seconds : a.bias.value < b.bias.value;
+                });
   }
 
   /// The setting with the least total error in that time.
   [[nodiscard]] AccuracyPoint best_in(double seconds) const {
-    std::optional<AccuracyPoint> best;
-    for (const double scale : scales_) {
-      const AccuracyPoint point = at(scale, seconds_of(scale).rays_in(seconds));
-      if (!best || point.total.value < best->total.value) best = point;
-    }
-    return *best;
+    return *best([&](double scale) { return std::min(seconds_of(scale).rays_in(seconds), most_rays_); },
+                 [](const AccuracyPoint& a, const AccuracyPoint& b) { return a.total.value < b.total.value; });
   }
 
   [[nodiscard]] double least_bias() const { return root(expected_square(own_.bias_squared(least_biased()))); }
@@ -118,33 +127,17 @@ class Ways {
     return gathers() ? own_.seconds(scale) : pilot_.trace + own_.seconds(scale);
   }
 
-  [[nodiscard]] std::optional<AccuracyPoint> reach_noise(double noise) const {
-    std::optional<AccuracyPoint> best;
+  /// The best of the settings tried, each with the rays that it needs; none that needs more than there may be.
+  template <class Rays, class Better>
+  [[nodiscard]] std::optional<AccuracyPoint> best(const Rays& rays_at, const Better& better) const {
+    std::optional<AccuracyPoint> found;
     for (const double scale : scales_) {
-      const double rays = own_.noise_squared(scale, 1) / (noise * noise);
+      const double rays = rays_at(scale);
       if (rays > most_rays_) continue;
       const AccuracyPoint point = at(scale, rays);
-      const bool below = point.bias.value <= noise;
-      const bool best_below = best && best->bias.value <= noise;
-      // the largest setting with a bias below the noise; else the one with the least bias
-      if (!best || (below && (!best_below || point.seconds <= best->seconds)) ||
-          (!below && !best_below && point.bias.value < best->bias.value))
-        best = point;
+      if (!found || better(point, *found)) found = point;
     }
-    return best;
-  }
-
-  [[nodiscard]] std::optional<AccuracyPoint> reach_total(double total) const {
-    std::optional<AccuracyPoint> best;
-    for (const double scale : scales_) {
-      const double bias = expected_square(own_.bias_squared(scale));
-      if (bias > share_for_bias * total * total) continue;
-      const double rays = own_.noise_squared(scale, 1) / (total * total - bias);
-      if (rays > most_rays_) continue;
-      const AccuracyPoint point = at(scale, rays);
-      if (!best || point.seconds < best->seconds) best = point;
-    }
-    return best;
+    return found;
   }
 
   const AccuracyPilot& pilot_;
@@ -279,6 +272,25 @@ AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& tar
   }
   mark_frontier(plan.points);
   return plan;
+}
+
+std::vector<AccuracyPoint> points_around_answer(const AccuracyPlan& plan, std::size_t most) {
+  const AccuracyPoint& answer = plan.answer;
+  const auto is_answer = [&](const AccuracyPoint& point) {  // a curve has a point with its number of rays
+    constexpr double alike = 0.01;
+    return point.estimator == answer.estimator && std::abs(point.rays / answer.rays - 1) < alike &&
+           std::abs(point.radius - answer.radius) <= alike * answer.radius;
+  };
+  std::vector<AccuracyPoint> all;
+  for (const AccuracyPoint& point : plan.points)
+    if (point.on_frontier && point.total.value < 1 && !is_answer(point)) all.push_back(point);
+  std::ranges::sort(all, {}, &AccuracyPoint::seconds);
+  std::vector<AccuracyPoint> best;  // of points that are equally fast, the most accurate one
+  for (const AccuracyPoint& point : all)
+    if (best.empty() || point.total.value < best.back().total.value) best.push_back(point);
+  const auto distance = [&](const AccuracyPoint& point) { return std::abs(std::log(point.seconds / answer.seconds)); };
+  while (best.size() > most) best.erase(distance(best.front()) > distance(best.back()) ? best.begin() : best.end() - 1);
+  return best;
 }
 
 }  // namespace detp::validate

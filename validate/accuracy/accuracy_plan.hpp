@@ -71,22 +71,27 @@ inline constexpr double clearly_slower = 1.3;
 /// light that it misses may be above a tenth of the target.
 ///
 /// target noise: of each estimator the largest setting whose bias is below the noise (if there is none, that of the least bias); among
-/// those the fastest, but none that another estimator beats in noise, total error and seconds. Of ways whose predicted seconds differ by less than 1.3 times, the one with the least total error. target total: the fastest setting with noise² + bias² = target². target seconds: the setting with the least
-/// total error in that time. At most `most_rays` rays. Throws std::invalid_argument for a target or a number of rays out of range.
+/// those the fastest, but none that another estimator beats in noise, total error and seconds. Of ways whose predicted seconds differ by less
+/// than 1.3 times, the one with the least total error. target total: the fastest setting with noise² + bias² = target². target seconds: the
+/// setting with the least total error in that time. At most `most_rays` rays. Throws std::invalid_argument for a target or a number of rays
+/// out of range.
 [[nodiscard]] AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& target,
                                          double most_rays = 1e9);
 
+/// Of the points on the frontier, at most so many around the answer and without it: each more accurate than all that are faster. Seconds rise.
+[[nodiscard]] std::vector<AccuracyPoint> points_around_answer(const AccuracyPlan& plan, std::size_t most);
+
 struct PilotedPlan {
-  AccuracyPilot pilot;
-  AccuracyPlan plan;
+  AccuracyPilot pilot = {};
+  AccuracyPlan plan = {};
   bool stopped = false;  ///< by a stop request: the pilot before the last one answers
 };
 
 /// The same with pilots in the scene, until the half width of the bias's interval is at most a fifth of the target (of a time: of the total
 /// error). The next pilot has up to four times the rays, or backward paths, or both, as one or both decide. Then the answer is rehearsed
-/// (PilotMaker::rehearse), and so is another one that is better with the noise found. Nothing is made that would exceed the price with all before:
-/// options.price times the answer's seconds, at least options.least_price, both as predicted. So the plan does not depend on the clock. options.rays and paths are those of the first pilot. Throws as make_accuracy_pilot; sim::Stopped if there was no
-/// pilot yet.
+/// (PilotMaker::rehearse), and so is another one that is better with the noise found. Nothing is made that would exceed the price with all
+/// before: options.price times the answer's seconds, at least options.least_price, both as predicted. So the plan does not depend on the
+/// clock. Throws as PilotMaker; sim::Stopped if there was no pilot yet.
 [[nodiscard]] PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, AccuracyPilotOptions options,
                                         double most_rays = 1e9);
 

@@ -38,4 +38,13 @@ namespace detp::validate {
 /// The answer in sentences.
 [[nodiscard]] std::string answer_words(const AccuracyAnswer& answer);
 
+/// "disc is best; nearest takes 2.4 times as long (bias at most 2 %)".
+[[nodiscard]] std::string rivals_words(const AccuracyAnswer& answer);
+
+/// "5 runs with seeds 3 to 7: noise 5 % (4.8 % to 5.2 %), inside the interval in 5; …". There must be some.
+[[nodiscard]] std::string reruns_words(const AccuracyAnswer& answer);
+
+/// "against 64 backward paths of each of 1000 samples (error 2 %)."
+[[nodiscard]] std::string judge_words(const AccuracyAnswer& answer);
+
 }  // namespace detp::validate

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "accuracy_report.hpp"
@@ -86,6 +87,55 @@ std::string command_of(const AccuracyAnswer& answer, const AccuracyPoint& point)
   if (point.radius > 0) text += fmt::format(" --disc-radius {:.4g}", point.radius);
   if (point.nearest > 0) text += fmt::format(" --nearest {}", point.nearest);
   return text + answer.request.command_end;
+}
+
+std::string rivals_words(const AccuracyAnswer& answer) {
+  std::string text = fmt::format("{} is best", name(answer.plan.answer.estimator));
+  const AccuracyTarget& target = answer.plan.target;
+  for (const AccuracyPoint& rival : answer.plan.rivals) {
+    text += fmt::format("; {}", name(rival.estimator));
+    if (target.kind == AccuracyTarget::Kind::seconds || !answer.plan.reached)
+      text += fmt::format(" has {}", percent(rival.total.value));
+    else if (!reaches(rival, target))
+      text += fmt::format(" does not reach it: its bias is {}", bias_words(rival));
+    else if (target.kind == AccuracyTarget::Kind::noise && rival.bias.value > target.value)
+      text += fmt::format(" is left out for its bias, {}", bias_words(rival));
+    else if (std::ranges::find(answer.plan.ties, rival.estimator) != answer.plan.ties.end())
+      text += fmt::format(" is about as fast (bias {})", bias_words(rival));
+    else
+      text += fmt::format(" takes {:.2g} times as long (bias {})", rival.seconds / answer.plan.answer.seconds,
+                          bias_words(rival));
+  }
+  if (answer.plan.gather_misses)
+    text += fmt::format("; gather is left out: it misses up to {} of the light", percent(*answer.plan.gather_misses));
+  return text;
+}
+
+std::string reruns_words(const AccuracyAnswer& answer) {
+  std::vector<double> noise;
+  std::vector<double> seconds;
+  for (const AccuracyRerun& one : answer.reruns) {
+    noise.push_back(one.noise);
+    seconds.push_back(one.seconds);
+  }
+  return fmt::format(
+      "{} runs with seeds {} to {}: noise {} ({} to {}), inside the interval in {}; {:.2g} s ({:.2g} to {:.2g})",
+      noise.size(), answer.reruns.front().seed, answer.reruns.back().seed, percent(median(noise)),
+      percent(std::ranges::min(noise)), percent(std::ranges::max(noise)), answer.inside(), median(seconds),
+      std::ranges::min(seconds), std::ranges::max(seconds));
+}
+
+std::string judge_words(const AccuracyAnswer& answer) {
+  const PilotJudge& judge = answer.pilot.judge;
+  if (judge.kind == ReferenceKind::known) return "against the closed form of this scene.";
+  std::string text = fmt::format("against {} backward paths of each of {} samples (error {})", judge.paths,
+                                 judge.samples, percent(judge.error));
+  if (judge.kind == ReferenceKind::both)
+    text += fmt::format(
+        " and {:.2g} photons for the {} of the light that these paths miss, extrapolated from two radii: blur common "
+        "to both is not seen",
+        static_cast<double>(judge.photons), percent(judge.missed_mean));
+  return text + ".";
 }
 
 std::string answer_words(const AccuracyAnswer& answer) {

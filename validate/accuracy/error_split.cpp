@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -46,38 +45,23 @@ OfSample of_sample(std::span<const std::vector<double>> runs, double reference, 
   return {mean - reference, squares / (count - 1)};
 }
 
-/// (Σ c)²/Σ c² of all squares c that the noise of the runs adds up.
-double equal_terms(std::span<const std::vector<double>> runs, std::span<const double> weights, double equal) {
-  double sum = 0;
-  double squares = 0;
-  for (std::size_t i = 0; i < runs.front().size(); ++i) {
-    double mean = 0;
-    for (const std::vector<double>& run : runs) mean += run[i] / static_cast<double>(runs.size());
-    for (const std::vector<double>& run : runs) {
-      const double square = (weights.empty() ? equal : weights[i]) * (run[i] - mean) * (run[i] - mean);
-      sum += square;
-      squares += square * square;
-    }
-  }
-  return squares > 0 ? sum * sum / squares : 0;
-}
-
 struct Sums {
   double noise = 0;
   double bias = 0;
+  double total = 0;
   double mean_bias = 0;
-
-  [[nodiscard]] double total() const { return noise + bias; }
 };
 
 class Splitter {
  public:
   Splitter(std::span<const std::vector<double>> runs, const ReferenceValues& reference)
-      : runs_(runs), reference_(reference), equal_(1 / static_cast<double>(reference.irradiance.size())) {}
-
-  [[nodiscard]] double weight(std::size_t i) const {
-    return reference_.weights.empty() ? equal_ : reference_.weights[i];
+      : runs_(runs),
+        reference_(reference),
+        weights_(reference.irradiance.size(), 1 / static_cast<double>(reference.irradiance.size())) {
+    if (!reference.weights.empty()) weights_.assign(reference.weights.begin(), reference.weights.end());
   }
+
+  [[nodiscard]] double weight(std::size_t i) const { return weights_[i]; }
 
   /// Weighted sums of all runs but one.
   [[nodiscard]] Sums sums(std::size_t without) const {
@@ -89,6 +73,7 @@ class Splitter {
       sums.bias += weight(i) * (off * off - variance / count - reference_.variance[i]);
       sums.mean_bias += weight(i) * off;
     }
+    sums.total = sums.noise + sums.bias;
     return sums;
   }
 
@@ -129,50 +114,42 @@ class Splitter {
     return found;
   }
 
-  template <class Value>
-  [[nodiscard]] static double jackknife(const std::vector<Sums>& left_out, const Value& value) {
-    const auto count = static_cast<double>(left_out.size());
-    double mean = 0;
-    for (const Sums& one : left_out) mean += value(one) / count;
+  /// (Σ c)²/Σ c² of all squares c that the noise of the runs adds up.
+  [[nodiscard]] double equal_terms() const {
+    double sum = 0;
     double squares = 0;
-    for (const Sums& one : left_out) squares += (value(one) - mean) * (value(one) - mean);
-    return (count - 1) / count * squares;
+    for (std::size_t i = 0; i < size(); ++i) {
+      double mean = 0;
+      for (const std::vector<double>& run : runs_) mean += run[i] / static_cast<double>(runs_.size());
+      for (const std::vector<double>& run : runs_) {
+        const double square = weight(i) * (run[i] - mean) * (run[i] - mean);
+        sum += square;
+        squares += square * square;
+      }
+    }
+    return squares > 0 ? sum * sum / squares : 0;
   }
 
-  [[nodiscard]] std::size_t size() const { return reference_.irradiance.size(); }
+  [[nodiscard]] std::size_t size() const { return weights_.size(); }
 
  private:
   std::span<const std::vector<double>> runs_;
   const ReferenceValues& reference_;
-  double equal_;
+  std::vector<double> weights_;
 };
 
-/// Errors of single runs at samples with light; estimates at samples without.
-void add_single_errors(std::span<const std::vector<double>> runs, const ReferenceValues& reference, double rms,
-                       double within, ErrorSplit& split) {
-  std::vector<double> errors;
-  double dark_squares = 0;
-  for (std::size_t i = 0; i < reference.irradiance.size(); ++i) {
-    const bool dark = reference.irradiance[i] == 0;
-    split.dark += dark ? 1 : 0;
-    for (const std::vector<double>& run : runs)
-      if (dark)
-        dark_squares += run[i] * run[i];
-      else
-        errors.push_back(std::abs(run[i] - reference.irradiance[i]) / rms);
-  }
-  if (split.dark > 0)
-    split.light_in_dark = std::sqrt(dark_squares / static_cast<double>(split.dark * runs.size())) / rms;
-  if (errors.empty()) return;
-  const auto inside = std::ranges::count_if(errors, [&](double error) { return error <= within; });
-  split.share_within = static_cast<double>(inside) / static_cast<double>(errors.size());
-  split.worst = *std::ranges::max_element(errors);
-  split.error_95 = quantile(std::move(errors), 0.95);
+double jackknife(const std::vector<Sums>& left_out, double Sums::*value) {
+  const auto count = static_cast<double>(left_out.size());
+  double mean = 0;
+  for (const Sums& one : left_out) mean += one.*value / count;
+  double squares = 0;
+  for (const Sums& one : left_out) squares += (one.*value - mean) * (one.*value - mean);
+  return (count - 1) / count * squares;
 }
 
 }  // namespace
 
-ErrorSplit split_error(std::span<const std::vector<double>> runs, const ReferenceValues& reference, double within) {
+ErrorSplit split_error(std::span<const std::vector<double>> runs, const ReferenceValues& reference) {
   require_same_length(runs, reference);
   for (const std::vector<double>& run : runs) require_finite_values(run, "an irradiance");
   require_finite_values(reference.irradiance, "a reference's irradiance");
@@ -192,22 +169,18 @@ ErrorSplit split_error(std::span<const std::vector<double>> runs, const Referenc
   for (std::size_t r = 0; r < runs.size(); ++r) left_out.push_back(splitter.sums(r));
   const Splitter::Variances variances = splitter.variances(all);
   const double of_bias = variances.bias_by_reference + variances.bias_by_subset;
-  const auto relative = [&](auto value, double more) {
-    const double variance = Splitter::jackknife(left_out, value) + more;
-    return Estimate{value(all) / mean_square, std::sqrt(variance) / mean_square};
+  const auto relative = [&](double Sums::*value, double more) {
+    const double variance = jackknife(left_out, value) + more;
+    return Estimate{all.*value / mean_square, std::sqrt(variance) / mean_square};
   };
   ErrorSplit split;
-  split.noise_squared = relative([](const Sums& one) { return one.noise; }, variances.noise_by_subset);
-  split.bias_squared = relative([](const Sums& one) { return one.bias; }, of_bias);
-  split.total_squared = relative([](const Sums& one) { return one.total(); }, of_bias + variances.noise_by_subset);
-  split.noise_terms = equal_terms(runs, reference.weights, 1 / static_cast<double>(splitter.size()));
+  split.noise_squared = relative(&Sums::noise, variances.noise_by_subset);
+  split.bias_squared = relative(&Sums::bias, of_bias);
+  split.total_squared = relative(&Sums::total, of_bias + variances.noise_by_subset);
+  split.noise_terms = splitter.equal_terms();
   split.by_reference = variances.bias_by_reference / (mean_square * mean_square);
-  if (mean > 0)
-    split.mean_bias = {all.mean_bias / mean,
-                       std::sqrt(Splitter::jackknife(left_out, [](const Sums& one) { return one.mean_bias; }) +
-                                 variances.mean_by_reference + variances.mean_by_subset) /
-                           mean};
-  add_single_errors(runs, reference, std::sqrt(mean_square), within, split);
+  const double of_mean = jackknife(left_out, &Sums::mean_bias) + variances.mean_by_reference + variances.mean_by_subset;
+  if (mean > 0) split.mean_bias = {all.mean_bias / mean, std::sqrt(of_mean) / mean};
   return split;
 }
 
@@ -215,6 +188,30 @@ RootInterval root_of(const Estimate& square, std::size_t runs) {
   const double width = interval_width(0.05, 1, static_cast<int>(runs)) * square.standard_error;
   const auto root = [](double value) { return std::sqrt(std::max(0.0, value)); };
   return {root(square.mean), root(square.mean - width), root(square.mean + width)};
+}
+
+Estimate bias_by_two_radii(std::span<const std::vector<double>> wide, std::span<const std::vector<double>> narrow,
+                           std::span<const double> weights) {
+  if (wide.size() < 3 || wide.size() != narrow.size())
+    throw std::invalid_argument("a bias by two radii needs at least 3 runs with each");
+  const std::size_t discs = weights.size();
+  const auto runs = static_cast<double>(wide.size());
+  std::vector<double> mean(discs);
+  for (const std::vector<double>& run : wide)
+    for (std::size_t i = 0; i < discs; ++i) mean[i] += run[i] / runs;
+  // The differences are runs whose reference is 0; relative errors need another one.
+  std::vector<std::vector<double>> apart;
+  for (std::size_t r = 0; r < wide.size(); ++r) {
+    std::vector<double>& run = apart.emplace_back(mean);
+    for (std::size_t i = 0; i < discs; ++i) run[i] += wide[r][i] - narrow[r][i];
+  }
+  const std::vector<double> exact(discs, 0.0);
+  const ErrorSplit split = split_error(apart, {mean, exact, weights});
+  constexpr double least = 16.0 / 9;
+  constexpr double most = 4;
+  constexpr double middle = 0.5 * (least + most);
+  const double spread = 0.5 * (most - least) * std::max(0.0, split.bias_squared.mean) / 1.96;
+  return {middle * split.bias_squared.mean, std::hypot(middle * split.bias_squared.standard_error, spread)};
 }
 
 }  // namespace detp::validate

@@ -7,11 +7,25 @@
 namespace detp::validate {
 namespace {
 
-/// The settings on both sides of the scale, and the share of the upper one.
+/// The settings on both sides of a scale, and the share of the upper one.
 struct Between {
   const SettingPilot& low;
   const SettingPilot& high;
   double share;
+
+  template <class Value>
+  [[nodiscard]] double mixed(const Value& value) const {
+    return (1 - share) * value(low) + share * value(high);
+  }
+  /// Linear in the logarithm.
+  template <class Value>
+  [[nodiscard]] double log_mixed(const Value& value) const {
+    return std::exp(mixed([&](const SettingPilot& one) { return std::log(value(one)); }));
+  }
+  [[nodiscard]] Estimate mixed_estimate(Estimate SettingPilot::*of) const {
+    return {mixed([of](const SettingPilot& one) { return (one.*of).mean; }),
+            mixed([of](const SettingPilot& one) { return (one.*of).standard_error; })};
+  }
 };
 
 Between between(const std::vector<SettingPilot>& settings, double scale) {
@@ -24,56 +38,47 @@ Between between(const std::vector<SettingPilot>& settings, double scale) {
   return {settings.back(), settings.back(), 0};
 }
 
+double noise_of_a_ray(const SettingPilot& one) { return std::max(one.noise_squared_times_rays.mean, 1e-300); }
+
 }  // namespace
 
 GrowingSeconds EstimatorPilot::seconds(double scale) const {
-  const auto [low, high, share] = between(settings, scale);
-  const auto mixed = [share = share](double a, double b) {
-    return a > 0 && b > 0 ? std::exp((1 - share) * std::log(a) + share * std::log(b)) : (1 - share) * a + share * b;
+  const Between there = between(settings, scale);
+  const auto mixed = [&](double GrowingSeconds::*part) {
+    const auto value = [part](const SettingPilot& one) { return one.seconds.*part; };
+    const bool both = value(there.low) > 0 && value(there.high) > 0;
+    return both ? there.log_mixed(value) : there.mixed(value);
   };
-  const GrowingSeconds& a = low.seconds;
-  const GrowingSeconds& b = high.seconds;
-  return {mixed(a.fixed, b.fixed), mixed(a.per_ray, b.per_ray), mixed(a.per_ray_squared, b.per_ray_squared)};
+  return {mixed(&GrowingSeconds::fixed), mixed(&GrowingSeconds::per_ray), mixed(&GrowingSeconds::per_ray_squared)};
 }
 
 double EstimatorPilot::rare_photons(double scale) const {
-  const auto [low, high, share] = between(settings, scale);
-  return std::exp((1 - share) * std::log(low.rare_photons) + share * std::log(high.rare_photons));
+  return between(settings, scale).log_mixed([](const SettingPilot& one) { return one.rare_photons; });
 }
 
 double EstimatorPilot::noise_squared(double scale, double rays) const {
-  const auto [low, high, share] = between(settings, scale);
-  const auto log_of = [](const SettingPilot& one) {
-    return std::log(std::max(one.noise_squared_times_rays.mean, 1e-300));
-  };
-  return std::exp((1 - share) * log_of(low) + share * log_of(high)) / rays;
+  return between(settings, scale).log_mixed(noise_of_a_ray) / rays;
 }
 
 double EstimatorPilot::noise_squared_error(double scale) const {
-  const auto [low, high, share] = between(settings, scale);
   // the spread of a few runs does not show what rare photons may bring
   const auto relative = [](const SettingPilot& one) {
-    return std::max(one.noise_squared_times_rays.standard_error / std::max(one.noise_squared_times_rays.mean, 1e-300),
-                    std::sqrt(1 / one.rare_photons));
+    return std::max(one.noise_squared_times_rays.standard_error / noise_of_a_ray(one), std::sqrt(1 / one.rare_photons));
   };
-  return std::sqrt(static_cast<double>(runs) + 1) * ((1 - share) * relative(low) + share * relative(high));
+  return std::sqrt(static_cast<double>(runs) + 1) * between(settings, scale).mixed(relative);
 }
 
 Estimate EstimatorPilot::bias_squared(double scale) const {
-  const auto [low, high, share] = between(settings, scale);
-  const auto mixed = [share = share](double a, double b) { return (1 - share) * a + share * b; };
-  const Estimate& a = low.bias_squared;
-  const Estimate& b = high.bias_squared;
-  const bool known = a.mean > a.standard_error && b.mean > b.standard_error;
-  return {known ? std::exp(mixed(std::log(a.mean), std::log(b.mean))) : mixed(a.mean, b.mean),
-          mixed(a.standard_error, b.standard_error)};
+  const Between there = between(settings, scale);
+  Estimate bias = there.mixed_estimate(&SettingPilot::bias_squared);
+  const auto known = [](const Estimate& one) { return one.mean > one.standard_error; };
+  if (known(there.low.bias_squared) && known(there.high.bias_squared))
+    bias.mean = there.log_mixed([](const SettingPilot& one) { return one.bias_squared.mean; });
+  return bias;
 }
 
 Estimate EstimatorPilot::mean_bias(double scale) const {
-  const auto [low, high, share] = between(settings, scale);
-  const auto mixed = [share = share](double a, double b) { return (1 - share) * a + share * b; };
-  return {mixed(low.mean_bias.mean, high.mean_bias.mean),
-          mixed(low.mean_bias.standard_error, high.mean_bias.standard_error)};
+  return between(settings, scale).mixed_estimate(&SettingPilot::mean_bias);
 }
 
 }  // namespace detp::validate

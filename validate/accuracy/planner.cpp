@@ -62,93 +62,86 @@ class Planner {
       make_pilots();
       rehearse();
     } catch (const sim::Stopped&) {
-      if (!found_.plan) throw;
+      if (found_.pilot.estimators.empty()) throw;
       found_.stopped = true;
     }
     found_.pilot.seconds = watch_.seconds();
-    return {std::move(found_.pilot), std::move(*found_.plan), found_.stopped};
+    return std::move(found_);
   }
 
  private:
   [[nodiscard]] double price() const {
-    return std::max(options_.least_price, options_.price * found_.plan->answer.seconds);
-  }
-
-  [[nodiscard]] const EstimatorPilot& estimator_of(const AccuracyPoint& point) const {
-    return *std::ranges::find(found_.pilot.estimators, point.estimator, &EstimatorPilot::estimator);
+    return std::max(options_.least_price, options_.price * found_.plan.answer.seconds);
   }
 
   /// Seconds of the price that are kept for a rehearsal of the answer.
   [[nodiscard]] double reserved() const {
-    const AccuracyPoint& best = found_.plan->answer;
-    if (!PilotMaker::can_rehearse(best.estimator)) return 0;
-    const auto size = maker_.rehearsal_size(found_.pilot, best.estimator, best.scale(), most_share * best.rays,
-                                            (1 - share_of_pilots) * price());
+    const auto size = rehearsal_size((1 - share_of_pilots) * price());
     return size ? size->seconds : 0;
+  }
+
+  [[nodiscard]] std::optional<PilotMaker::RehearsalSize> rehearsal_size(double seconds) const {
+    constexpr double most_share = 0.25;  // of the answer's rays
+    const AccuracyPoint& best = found_.plan.answer;
+    return maker_.rehearsal_size(found_.pilot, best.setting(), most_share * best.rays, seconds);
   }
 
   /// Until the bias is known well enough, or would cost too much.
   void make_pilots() {
+    const PilotSize first = maker_.first_size();
+    predicted_ += maker_.predicted_seconds(first, nullptr);
+    escalate(maker_, found_.pilot, first, [this](const PilotSize& made) {
+      found_.plan = plan_accuracy(found_.pilot, target_, most_rays_);
+      const std::optional<PilotSize> next = next_size(made);
+      if (next) predicted_ += maker_.predicted_seconds(*next, &found_.pilot);
+      return next;
+    });
+  }
+
+  /// After a pilot: as much as the price allows of what decides; nothing if the bias is known, or if that is too little.
+  [[nodiscard]] std::optional<PilotSize> next_size(const PilotSize& made) {
     constexpr double enough = 0.2;           // of the target, for half the width of the bias's interval
     constexpr double deciding_share = 0.25;  // of the variance of bias²
     constexpr double most_pilot_rays = 4e7;
-    double rays = maker_.first_rays();
-    std::uint64_t paths = maker_.first_paths();
-    for (bool first = true;; first = false) {
-      predicted_ += maker_.predicted_seconds(rays, paths, first ? nullptr : &found_.pilot);
-      found_.pilot = maker_.make(rays, paths, first ? nullptr : &found_.pilot);
-      found_.plan = plan_accuracy(found_.pilot, target_, most_rays_);
-      const AccuracyPoint& best = found_.plan->answer;
-      const double wanted = enough * (target_.kind == AccuracyTarget::Kind::seconds ? best.total.value : target_.value);
-      const AccuracyPoint& open = least_known(*found_.plan, wanted);
-      if (open.bias.half_width() <= wanted || rays > most_pilot_rays) return;
-      const double by_reference = estimator_of(open).by_reference;
-      const bool by_paths = by_reference > deciding_share && options_.reference == nullptr;
-      const bool by_rays = by_reference < 1 - deciding_share;
-      if (!by_rays && !by_paths) return;
-      settle(found_.pilot, *found_.plan);
-      double next_rays = 0;
-      std::uint64_t next_paths = 0;
-      double more = 4;
-      for (;; more /= std::sqrt(2)) {  // as much as the price allows
-        if (more < 1.4) return;
-        next_rays = by_rays ? more * rays : rays;
-        next_paths = by_paths ? static_cast<std::uint64_t>(more * static_cast<double>(paths)) : paths;
-        if (predicted_ + maker_.predicted_seconds(next_rays, next_paths, &found_.pilot) <= price() - reserved()) break;
-      }
-      rays = next_rays;
-      paths = next_paths;
+    const AccuracyPoint& best = found_.plan.answer;
+    const double wanted = enough * (target_.kind == AccuracyTarget::Kind::seconds ? best.total.value : target_.value);
+    const AccuracyPoint& open = least_known(found_.plan, wanted);
+    if (open.bias.half_width() <= wanted || made.rays > most_pilot_rays) return std::nullopt;
+    const double by_reference = found_.pilot.of(open.estimator).by_reference;
+    const bool by_paths = by_reference > deciding_share && options_.reference == nullptr;
+    const bool by_rays = by_reference < 1 - deciding_share;
+    if (!by_rays && !by_paths) return std::nullopt;
+    settle(found_.pilot, found_.plan);
+    for (double more = 4; more >= 1.4; more /= std::sqrt(2)) {
+      PilotSize next = made;
+      if (by_rays) next.rays *= more;
+      if (by_paths) next.paths = static_cast<std::uint64_t>(more * static_cast<double>(made.paths));
+      if (predicted_ + maker_.predicted_seconds(next, &found_.pilot) <= price() - reserved()) return next;
     }
+    return std::nullopt;
   }
 
   /// Until the noise of the answer is that of a rehearsal, or the price is spent: another way may be better then.
   void rehearse() {
     constexpr double near = 1.3;  // scales
     for (;;) {
-      const AccuracyPoint& best = found_.plan->answer;
-      const double rehearsed = estimator_of(best).rehearsed;
-      if (!PilotMaker::can_rehearse(best.estimator)) return;
+      const AccuracyPoint& best = found_.plan.answer;
+      const double rehearsed = found_.pilot.of(best.estimator).rehearsed;
       if (rehearsed > 0 && best.scale() < near * rehearsed && rehearsed < near * best.scale()) return;
-      const auto size = maker_.rehearsal_size(found_.pilot, best.estimator, best.scale(), most_share * best.rays,
-                                              price() - predicted_);
+      const auto size = rehearsal_size(price() - predicted_);
       if (!size) return;
       predicted_ += size->seconds;
-      maker_.rehearse(found_.pilot, best.setting(), best.scale(), *size, best.rays);
+      maker_.rehearse(found_.pilot, best.setting(), *size, best.rays);
       found_.plan = plan_accuracy(found_.pilot, target_, most_rays_);
     }
   }
 
-  static constexpr double most_share = 0.25;  // of the answer's rays, in a rehearsal
   AccuracyTarget target_;
   AccuracyPilotOptions options_;
   double most_rays_;
   sim::Stopwatch watch_;
   PilotMaker maker_;
-  struct {
-    AccuracyPilot pilot;
-    std::optional<AccuracyPlan> plan;
-    bool stopped = false;
-  } found_;
+  PilotedPlan found_;
   double predicted_;  // seconds of all pilots, with what they need
 };
 

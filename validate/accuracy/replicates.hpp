@@ -78,6 +78,28 @@ class ReplicateMaker {
   std::optional<bool> goes_on_;  ///< paths go on beyond surfaces
 };
 
+/// Radii of variable-radius at some of a scene's samples, from the hits of other runs: a tenth of so short a run would not find the radii of a long
+/// one. The median of the hits is that of discs at all samples of the scene, as in a run.
+class PilotRadii {
+ public:
+  /// `places`: of samples that count, or of a random part of `population` such samples, rising. `relative`: radii of the scene's samples over the
+  /// setting's; none: 1.
+  PilotRadii(const sim::Scene& scene, std::span<const std::size_t> places, std::size_t population,
+             std::span<const double> relative);
+
+  /// Of discs, everywhere where they are needed.
+  [[nodiscard]] std::vector<std::uint64_t> hits(const ReplicateMaker& maker, const sim::PathRays& paths,
+                                                double radius) const;
+
+  /// Radii over `radius` at the samples that count (sim::discs_of_pilot), from the hits of such discs.
+  [[nodiscard]] std::vector<double> of(double radius, std::span<const std::uint64_t> hits) const;
+
+ private:
+  std::size_t counting_;
+  std::vector<sim::Sample> samples_;  ///< those that count come first
+  std::vector<double> relative_;
+};
+
 /// The rays of the first photons. Each photon still has the power that it has among all.
 [[nodiscard]] sim::PathRays first_photons(const sim::Paths& paths, std::uint64_t photons);
 

@@ -12,11 +12,6 @@
 namespace detp::validate {
 namespace {
 
-template <class T>
-double tests_of(const Counts<T>& counts) {
-  return static_cast<double>(counts.cull_tests) + static_cast<double>(counts.disc_tests);
-}
-
 const Prediction* box_tree_of(const Choice& choice) {
   for (const Prediction& one : choice.candidates)
     if (one.candidate.technique == Technique::box_tree) return &one;
@@ -56,8 +51,8 @@ std::vector<AxisPoint> model_axis(const sim::PathRays& rays, std::span<const sim
       points.push_back(std::move(point));
     };
     const std::string setting(name(rigor));
-    add(compared(setting, "tests of a box tree", tests_of(box_tree->counts), tests_of(box_tree->counts_error),
-                 tests_of(counted.counts)));
+    add(compared(setting, "tests of a box tree", tests(box_tree->counts), tests(box_tree->counts_error),
+                 static_cast<double>(tests(counted.counts))));
     add(compared(setting, "seconds of a box tree", box_tree->seconds(), box_tree->error, timed.seconds.total()));
     if (rigor == Rigor::pilot) {
       AxisPoint full{.axis = "model", .setting = "full run", .quantity = "tests of a box tree"};  // counts are exact

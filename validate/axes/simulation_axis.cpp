@@ -46,28 +46,24 @@ Coordinates stratified_point(std::uint64_t seed, std::uint32_t index, std::uint3
   return point;
 }
 
-/// Adds to the estimated number of lines that hit each disc.
-using AddLine =
-    std::function<void(const Coordinates&, std::span<const sim::Disc>, const sim::Sphere&, std::vector<double>&)>;
-
-void count_hits(const Coordinates& point, std::span<const sim::Disc> discs, const sim::Sphere& sphere,
-                std::vector<double>& sums) {
-  const sim::Ray line = sim::line_at(sphere, point);
-  for (std::size_t i = 0; i < discs.size(); ++i) sums[i] += sim::hits(line, discs[i]) ? 1 : 0;
-}
-
-void add_conditioned(const Coordinates& point, std::span<const sim::Disc> discs, const sim::Sphere& sphere,
-                     std::vector<double>& sums) {
-  const glm::dvec3 direction = sim::uniform_direction(point[0], point[1]);
-  for (std::size_t i = 0; i < discs.size(); ++i)
-    sums[i] += std::pow(discs[i].radius / sphere.radius, 2) * std::abs(glm::dot(discs[i].normal, direction));
-}
-
 struct Way {
   const char* name;
   Sampler sampler;
-  AddLine add;
+  bool conditioned = false;  ///< on the direction
 };
+
+/// Adds to the estimated number of lines that hit each disc.
+void add_line(const Way& way, const Coordinates& point, std::span<const sim::Disc> discs, const sim::Sphere& sphere,
+              std::vector<double>& sums) {
+  if (way.conditioned) {
+    const glm::dvec3 direction = sim::uniform_direction(point[0], point[1]);
+    for (std::size_t i = 0; i < discs.size(); ++i)
+      sums[i] += std::pow(discs[i].radius / sphere.radius, 2) * std::abs(glm::dot(discs[i].normal, direction));
+  } else {
+    const sim::Ray line = sim::line_at(sphere, point);
+    for (std::size_t i = 0; i < discs.size(); ++i) sums[i] += sim::hits(line, discs[i]) ? 1 : 0;
+  }
+}
 
 AxisPoint measured(const Way& way, std::uint32_t count, std::span<const sim::Disc> discs, const sim::Sphere& sphere,
                    const AxisOptions& options) {
@@ -77,7 +73,7 @@ AxisPoint measured(const Way& way, std::uint32_t count, std::span<const sim::Dis
     sim::StopCheck(options.stop, "sampling lines").now();
     std::vector<double> sums(discs.size());
     const std::uint64_t seed = options.seed * 1000 + replicate;
-    for (std::uint32_t i = 0; i < count; ++i) way.add(way.sampler(seed, i, count), discs, sphere, sums);
+    for (std::uint32_t i = 0; i < count; ++i) add_line(way, way.sampler(seed, i, count), discs, sphere, sums);
     double square = 0;
     for (std::size_t i = 0; i < discs.size(); ++i) {
       const double known = 0.5 * std::pow(discs[i].radius / sphere.radius, 2);
@@ -106,11 +102,11 @@ std::vector<AxisPoint> simulation_axis(std::span<const sim::Disc> discs, const A
   const Sampler owen = [](std::uint64_t seed, std::uint32_t index, std::uint32_t) {
     return OwenSobol(seed).point(index);
   };
-  const std::vector<Way> ways{{"plain", random_point, count_hits},
-                              {"stratified", stratified_point, count_hits},
-                              {"Owen-scrambled Sobol", owen, count_hits},
-                              {"conditioned on direction", random_point, add_conditioned},
-                              {"conditioned, Owen-scrambled Sobol", owen, add_conditioned}};
+  const std::vector<Way> ways{{"plain", random_point},
+                              {"stratified", stratified_point},
+                              {"Owen-scrambled Sobol", owen},
+                              {"conditioned on direction", random_point, true},
+                              {"conditioned, Owen-scrambled Sobol", owen, true}};
   std::vector<AxisPoint> points;
   for (const Way& way : ways)
     for (const std::uint32_t count : numbers_of_lines) points.push_back(measured(way, count, some, sphere, options));

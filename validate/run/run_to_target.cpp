@@ -67,9 +67,8 @@ BiasEstimate bias_of(const Job& job, sim::Estimator estimator, double target, do
                                  .threads = threads,
                                  .stop = stop});
   BiasEstimate bias;
-  std::uint64_t paths = pilots.first_paths();
-  for (double rays = usual_pilot_rays;; rays *= 4, paths *= 4) {
-    const AccuracyPilot pilot = pilots.make(rays, paths);
+  AccuracyPilot pilot;
+  const auto next = [&](const PilotSize& made) -> std::optional<PilotSize> {
     const EstimatorPilot& own = pilot.estimators.front();
     bias.squared = own.settings.back().bias_squared;
     bias.mean = own.settings.back().mean_bias;
@@ -79,9 +78,11 @@ BiasEstimate bias_of(const Job& job, sim::Estimator estimator, double target, do
     bias.radius = 0;
     for (const SettingPilot& setting : own.settings)
       if (uses_radius(estimator) && setting.bias_squared.mean <= target * target) bias.radius = setting.scale;
-    const RootInterval interval = bias.interval();
-    if (0.5 * (interval.high - interval.low) <= enough * target || 4 * rays > most_rays) return bias;
-  }
+    if (bias.interval().half_width() <= enough * target || 4 * made.rays > most_rays) return std::nullopt;
+    return PilotSize{4 * made.rays, 4 * made.paths};
+  };
+  escalate(pilots, pilot, {usual_pilot_rays, pilots.first_paths()}, next);
+  return bias;
 }
 
 /// Photons of a job's rays, divided among so many runs by their numbers; of more rays than `most` only some of the photons.

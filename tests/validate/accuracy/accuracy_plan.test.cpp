@@ -222,9 +222,11 @@ TEST_SUITE("plans of accuracy") {
 
   TEST_CASE("@furnace: noise and time of the answer come true, and discs are found to lose light at edges") {
     sim::Scene furnace = sim::open_scene({.name = "@furnace", .samples = {}});
-    const AccuracyPilotOptions options{.estimators = {sim::Estimator::disc, sim::Estimator::triangle_hits},
-                                       .rays = 200'000};
-    const AccuracyPilot pilot = with_equal_seconds(make_accuracy_pilot(furnace, options));
+    const AccuracyPilotOptions options{
+        .estimators = {sim::Estimator::disc, sim::Estimator::triangle_hits},
+    };
+    PilotMaker maker(furnace, options);
+    const AccuracyPilot pilot = with_equal_seconds(maker.make({200'000, maker.first_paths()}));
     CHECK(pilot.mean_square == doctest::Approx(std::pow(6.2832, 2)).epsilon(0.03));
     for (const SettingPilot& setting : pilot.estimators[0].settings)
       CHECK(setting.bias_squared.mean > 3 * setting.bias_squared.standard_error);
@@ -244,8 +246,8 @@ TEST_SUITE("plans of accuracy") {
     by_paths.paths = 1 << 20;
     const auto next = [&](const Reference& reference) {
       PilotMaker maker(furnace, {.estimators = {sim::Estimator::disc}, .reference = &reference});
-      const AccuracyPilot first = maker.make(4000, 16);
-      return maker.predicted_seconds(16'000, 16, &first);
+      const AccuracyPilot first = maker.make({4000, 16});
+      return maker.predicted_seconds({16'000, 16}, &first);
     };
     CHECK(next(by_paths) == next(known));
     CHECK(next(by_paths) < 1);
@@ -259,9 +261,9 @@ TEST_SUITE("long") {
       sim::Scene scene = sim::open_scene({.name = name, .samples = {}});
       const Reference reference = make_reference(scene, {.samples = 500, .error = 0.03});
       const AccuracyPilotOptions options{.estimators = {sim::Estimator::disc, sim::Estimator::triangle_hits},
-                                         .rays = 100'000,
                                          .reference = &reference};
-      const AccuracyPilot pilot = with_equal_seconds(make_accuracy_pilot(scene, options));
+      PilotMaker maker(scene, options);
+      const AccuracyPilot pilot = with_equal_seconds(maker.make({100'000, maker.first_paths()}));
       const AccuracyPoint answer = plan_accuracy(pilot, {Kind::total, 0.2}).answer;
       CHECK(answer.noise.low < answer.noise.value);
       CHECK(answer.noise.value < answer.noise.high);
@@ -335,14 +337,14 @@ TEST_SUITE("identity") {
       CAPTURE(name(estimator));
       const AccuracyPilotOptions options{.estimators = {estimator}, .radii = {radius}};
       PilotMaker maker(scene, options);
-      AccuracyPilot pilot = maker.make(4000, 16);
+      AccuracyPilot pilot = maker.make({4000, 16});
       const AccuracySetting setting{estimator, uses_radius(estimator) ? radius : 0};
       const double scale = uses_radius(estimator) ? radius : 1;
-      CHECK_FALSE(maker.rehearsal_size(pilot, estimator, scale, 1000, 10));  // fewer rays than the pilot
-      const auto size = maker.rehearsal_size(pilot, estimator, scale, rays / 2, 10);
+      CHECK_FALSE(maker.rehearsal_size(pilot, setting, 1000, 10));  // fewer rays than the pilot
+      const auto size = maker.rehearsal_size(pilot, setting, rays / 2, 10);
       REQUIRE(size);
       CHECK(size->samples == scene.samples.size());
-      maker.rehearse(pilot, setting, scale, *size, rays);
+      maker.rehearse(pilot, setting, *size, rays);
       CHECK(pilot.estimators.front().rehearsed == scale);
       const double promised = std::sqrt(pilot.estimators.front().noise_squared(scale, rays));
       const AccuracyPoint point{.estimator = estimator, .rays = rays, .radius = setting.radius};
@@ -362,7 +364,7 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_AS((void)plan_accuracy(pilot, {Kind::seconds, -1}), std::invalid_argument);
     CHECK_THROWS_AS((void)plan_accuracy(pilot, {Kind::noise, 0.1}, 0), std::invalid_argument);
     sim::Scene uniform = sim::open_scene({.name = "@uniform", .samples = 100});
-    CHECK_THROWS_AS((void)make_accuracy_pilot(uniform, {}), std::invalid_argument);
+    CHECK_THROWS_AS(PilotMaker(uniform, {}), std::invalid_argument);
   }
 }
 

@@ -9,7 +9,6 @@
 #include "detp/sim/photons/emitter.hpp"
 #include "detp/validate/accuracy/accuracy_pilot.hpp"
 #include "detp/validate/accuracy/judged_samples.hpp"
-#include "detp/validate/accuracy/radii.hpp"
 
 namespace detp::validate {
 namespace {
@@ -41,8 +40,8 @@ sim::Scene floor_under_lamp(bool twice) {
 }
 
 RootInterval stated(sim::Scene& scene, sim::Estimator estimator, double radius) {
-  const AccuracyPilot pilot = make_accuracy_pilot(
-      scene, {.estimators = {estimator}, .rays = 400'000, .paths = 512, .radii = {radius / 2, radius}});
+  PilotMaker maker(scene, {.estimators = {estimator}, .radii = {radius / 2, radius}});
+  const AccuracyPilot pilot = maker.make({400'000, 512});
   const EstimatorPilot& own = pilot.estimators.front();
   return root_of(own.settings.back().bias_squared, own.runs);
 }
@@ -71,8 +70,7 @@ TEST_SUITE("bias is judged by what shares nothing with the estimators") {
     CHECK(middle.low == 0);
     CHECK(middle.high < 0.06);
     for (sim::Sample& sample : furnace.samples) sample.position.z = 0;
-    const AccuracyPilot pilot =
-        make_accuracy_pilot(furnace, {.estimators = {disc}, .rays = 400'000, .paths = 512, .radii = {0.1}});
+    const AccuracyPilot pilot = PilotMaker(furnace, {.estimators = {disc}, .radii = {0.1}}).make({400'000, 512});
     const SettingPilot& edge = pilot.estimators.front().settings.front();
     CHECK(edge.mean_bias.mean < -0.1);
     const double same = edge.mean_bias.mean * edge.mean_bias.mean;  // every disc loses alike

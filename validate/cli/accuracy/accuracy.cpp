@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "detp/model/vocabulary/checks.hpp"
@@ -25,28 +24,20 @@ using validate::AccuracyPoint;
 using validate::AccuracyTarget;
 using validate::percent;
 
+/// The request, and options that have to be read.
 struct AccuracyOptions {
-  std::string scene;
+  validate::AccuracyRequest request = {.scene = {.name = {}, .samples = {}}};
   std::optional<std::string> noise;
   std::optional<std::string> error;
   std::optional<double> seconds;
-  std::optional<double> rays;
   std::optional<double> samples;
   std::vector<std::string> estimators;
   std::optional<std::string> lights;
   std::optional<std::string> crease;
   std::optional<std::string> up;
-  std::optional<std::string> discs;
-  std::optional<std::string> disc_radius;
-  sim::FaceNames faces;
-  std::optional<std::string> reference;
   std::optional<std::string> seeds;
   std::vector<std::string> axes;
   std::string effort = "default";
-  bool check = false;
-  bool front_facing = false;
-  std::optional<std::string> checkpoint;
-  bool resume = false;
 };
 
 AccuracyTarget target_of(const AccuracyOptions& options) {
@@ -80,8 +71,8 @@ std::string repeated_options(const AccuracyOptions& options) {
   if (options.lights) text += " --light " + *options.lights;
   if (options.up) text += " --up " + *options.up;
   if (options.crease) text += " --crease " + *options.crease;
-  if (options.front_facing) text += " --front-facing";
-  if (options.discs) text += " --discs " + shell_word(*options.discs);
+  if (options.request.front_facing) text += " --front-facing";
+  if (options.request.discs) text += " --discs " + shell_word(*options.request.discs);
   return text;
 }
 
@@ -93,32 +84,21 @@ Named named(const std::string& option, const std::string& text, const auto& name
 }
 
 validate::AccuracyRequest request_of(const AccuracyOptions& options, const CommonOptions& common) {
-  validate::AccuracyRequest request{
-      .scene = {.name = options.scene, .samples = {}, .seed = common.seed},
-      .target = target_of(options),
-      .most_rays = options.rays.value_or(1e9),
-      .discs = options.discs,
-      .disc_radius = options.disc_radius,
-      .faces = options.faces,
-      .reference = options.reference,
-      .effort = named<validate::PlanningEffort>("--effort", options.effort, validate::planning_efforts),
-      .check = options.check,
-      .front_facing = options.front_facing,
-      .checkpoint = options.checkpoint,
-      .resume = options.resume,
-      .threads = common.threads,
-      .ranks = common.ranks,
-      .command = "detp run " + shell_word(options.scene),
-      .command_end = repeated_options(options)};
+  validate::AccuracyRequest request = options.request;
+  request.target = target_of(options);
+  request.effort = named<validate::PlanningEffort>("--effort", options.effort, validate::planning_efforts);
+  request.scene.seed = common.seed;
+  request.threads = common.threads;
+  request.ranks = common.ranks;
+  request.command = "detp run " + shell_word(request.scene.name);
+  request.command_end = repeated_options(options);
   if (options.seeds) {
     const SeedRange seeds = parse_seeds("--seeds", *options.seeds);
     request.seeds = {seeds.first, seeds.last};
-    validate::check(*request.seeds);
   }
   for (const std::string& axis : options.axes)
     request.axes.push_back(named<validate::AccuracyAxis>("--axis", axis, validate::accuracy_axes));
   require_count("--rays", request.most_rays, 1000, 1e12);
-  validate::check(request.target, request.most_rays);
   if (options.samples) {
     require_count("--samples", *options.samples, 1, 1e9);
     request.scene.samples = static_cast<std::size_t>(*options.samples);
@@ -128,50 +108,6 @@ validate::AccuracyRequest request_of(const AccuracyOptions& options, const Commo
   if (options.crease) request.crease = parse_crease(*options.crease);
   request.estimators = estimators_of(options);
   return request;
-}
-
-std::string rivals_words(const AccuracyAnswer& answer) {
-  std::string text = fmt::format("{} is best", name(answer.plan.answer.estimator));
-  const AccuracyTarget& target = answer.plan.target;
-  for (const AccuracyPoint& rival : answer.plan.rivals) {
-    text += fmt::format("; {}", name(rival.estimator));
-    if (target.kind == AccuracyTarget::Kind::seconds || !answer.plan.reached)
-      text += fmt::format(" has {}", percent(rival.total.value));
-    else if (!reaches(rival, target))
-      text += fmt::format(" does not reach it: its bias is {}", bias_words(rival));
-    else if (target.kind == AccuracyTarget::Kind::noise && rival.bias.value > target.value)
-      text += fmt::format(" is left out for its bias, {}", bias_words(rival));
-    else if (std::ranges::find(answer.plan.ties, rival.estimator) != answer.plan.ties.end())
-      text += fmt::format(" is about as fast (bias {})", bias_words(rival));
-    else
-      text += fmt::format(" takes {:.2g} times as long (bias {})", rival.seconds / answer.plan.answer.seconds,
-                          bias_words(rival));
-  }
-  if (answer.plan.gather_misses)
-    text += fmt::format("; gather is left out: it misses up to {} of the light", percent(*answer.plan.gather_misses));
-  return text;
-}
-
-std::string reruns_words(const AccuracyAnswer& answer) {
-  std::vector<double> noise;
-  std::vector<double> seconds;
-  for (const validate::AccuracyRerun& one : answer.reruns) {
-    noise.push_back(one.noise);
-    seconds.push_back(one.seconds);
-  }
-  return fmt::format(
-      "{} runs with seeds {} to {}: noise {} ({} to {}), inside the interval in {}; {:.2g} s ({:.2g} to {:.2g})",
-      noise.size(), answer.reruns.front().seed, answer.reruns.back().seed, percent(validate::median(noise)),
-      percent(std::ranges::min(noise)), percent(std::ranges::max(noise)), answer.inside(), validate::median(seconds),
-      std::ranges::min(seconds), std::ranges::max(seconds));
-}
-
-/// The curve has a point with the answer's number of rays.
-bool is_answer(const AccuracyAnswer& answer, const AccuracyPoint& point) {
-  constexpr double alike = 0.01;
-  const AccuracyPoint& best = answer.plan.answer;
-  return point.estimator == best.estimator && std::abs(point.rays / best.rays - 1) < alike &&
-         std::abs(point.radius - best.radius) <= alike * best.radius;
 }
 
 /// A table for each axis.
@@ -201,19 +137,6 @@ std::string axes_text(const AccuracyAnswer& answer, const Screen& screen) {
   return text;
 }
 
-std::string bias_source(const AccuracyAnswer& answer) {
-  const validate::PilotJudge& judge = answer.pilot.judge;
-  if (judge.kind == validate::ReferenceKind::known) return "against the closed form of this scene.";
-  std::string text = fmt::format("against {} backward paths of each of {} samples (error {})", judge.paths,
-                                 judge.samples, percent(judge.error));
-  if (judge.kind == validate::ReferenceKind::both)
-    text += fmt::format(
-        " and {:.2g} photons for the {} of the light that these paths miss, extrapolated from two radii: blur common "
-        "to both is not seen",
-        static_cast<double>(judge.photons), percent(judge.missed_mean));
-  return text + ".";
-}
-
 std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
   std::string text = wrapped("answer    " + answer_words(answer), screen.text_width(), 10);
   text += wrapped(
@@ -225,8 +148,8 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
                                  answer.plan.answer.slope.low, answer.plan.answer.slope.high),
       screen.text_width(), 10);
   text += "command   " + command_of(answer, answer.plan.answer) + "\n";  // one line, to be pasted
-  text += wrapped("estimator " + rivals_words(answer), screen.text_width(), 10);
-  if (!answer.reruns.empty()) text += wrapped("runs      " + reruns_words(answer), screen.text_width(), 10);
+  text += wrapped("estimator " + validate::rivals_words(answer), screen.text_width(), 10);
+  if (!answer.reruns.empty()) text += wrapped("runs      " + validate::reruns_words(answer), screen.text_width(), 10);
   text += "\n";
   TextTable table({{.head = "total"},
                    {.head = "noise"},
@@ -248,23 +171,9 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
                {fmt::format("{:.2g}", point.seconds)},
                {remark}});
   };
-  std::vector<AccuracyPoint> shown;
-  for (const AccuracyPoint& point : answer.plan.points)
-    if (point.on_frontier && point.total.value < 1 && !is_answer(answer, point)) shown.push_back(point);
-  std::ranges::sort(shown, {}, &AccuracyPoint::seconds);
-  // of points that are equally fast, the most accurate one
-  std::vector<AccuracyPoint> best;
-  for (const AccuracyPoint& point : shown)
-    if (best.empty() || point.total.value < best.back().total.value) best.push_back(point);
-  // those around the answer
   constexpr std::size_t rows_shown = 7;
-  const auto distance = [&](const AccuracyPoint& point) {
-    return std::abs(std::log(point.seconds / answer.plan.answer.seconds));
-  };
-  while (best.size() > rows_shown)
-    best.erase(distance(best.front()) > distance(best.back()) ? best.begin() : best.end() - 1);
   bool answered = false;
-  for (const AccuracyPoint& point : best) {
+  for (const AccuracyPoint& point : points_around_answer(answer.plan, rows_shown)) {
     if (!answered && point.seconds >= answer.plan.answer.seconds) {
       add(answer.plan.answer, "<- answer");
       answered = true;
@@ -276,7 +185,7 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
   text +=
       wrapped(fmt::format("noise, bias, total: root mean square over {}, relative to the root mean square irradiance. "
                           "Seconds: wall clock, tracing included. Bias: {}",
-                          "the samples by area", bias_source(answer)),
+                          "the samples by area", validate::judge_words(answer)),
               screen.text_width(), 0);
   return text + fmt::format("planning  {:.2g} s: a pilot of {:.2g} pieces{}\n", answer.planning_seconds,
                             answer.pilot.rays, answer.check ? ", one check" : "");
@@ -307,7 +216,8 @@ Command accuracy_command(CLI::App& program) {
       program.add_subcommand("accuracy", "What accuracy costs in time: rays, setting and estimator for an error");
   app->footer("Example: detp accuracy @cornell --target-noise 5%\nExample: detp accuracy @cornell --time-budget 2");
   const auto options = std::make_shared<AccuracyOptions>();
-  app->add_option("SCENE", options->scene, "a mesh (.obj, .ply) or a built-in scene with lights")->required();
+  app->add_option("SCENE", options->request.scene.name, "a mesh (.obj, .ply) or a built-in scene with lights")
+      ->required();
   app->add_option("--target-noise", options->noise,
                   "noise to reach, as 5% or 0.05; the setting is the largest whose bias is below; default: 5%");
   app->add_option("--target-error", options->error, "noise and bias together to reach, as 5% or 0.05");
@@ -316,19 +226,19 @@ Command accuracy_command(CLI::App& program) {
   app->add_option("--estimators", options->estimators,
                   "a list of disc, variable-radius, nearest, area-corrected, triangle-hits, gather; default: all")
       ->delimiter(',');
-  add_count(*app, "--rays", options->rays, "at most so many pieces of photon paths, as 10M; default: 1e9");
+  add_count(*app, "--rays", options->request.most_rays, "at most so many pieces of photon paths, as 10M; default: 1e9");
   add_count(*app, "--samples", options->samples, "how many samples; default: the scene's vertices");
-  app->add_option("--discs", options->discs,
+  app->add_option("--discs", options->request.discs,
                   "the discs in question, from a CSV, PLY or NPY file; default: one at each of the scene's samples");
   app->add_option(
-      "--disc-radius", options->disc_radius,
+      "--disc-radius", options->request.disc_radius,
       "radii from half to four times this one are tried (a length, or a percentage); default: from a quarter "
       "to twice the mean edge of the mesh");
-  add_face_names(*app, options->faces);
+  add_face_names(*app, options->request.faces);
   app->add_option("--light", options->lights, "lights placed in the scene, as of run");
   app->add_option("--up", options->up, "which way is up, as of run");
   app->add_option("--crease", options->crease, "angle from which edges are sharp, as of run");
-  app->add_option("--reference", options->reference,
+  app->add_option("--reference", options->request.reference,
                   "the file of the irradiance to compare with; it is made if there is none (up to a minute); "
                   "default: some backward paths");
   app->add_option("--seeds", options->seeds, "runs the answer again with each of these seeds, as 1:100; default: not");
@@ -342,12 +252,13 @@ Command accuracy_command(CLI::App& program) {
          "how long planning may take, until the bias is known to a fifth of the target: quick: 0.5 s; default: that or "
          "0.3 times the answer; thorough: 20 s or twenty times the answer; default: default")
       ->check(CLI::IsMember({"quick", "default", "thorough"}));
-  app->add_flag("--check", options->check, "run the answer once; its noise is added to what is known; default: not");
-  app->add_flag("--front-facing", options->front_facing, "light that arrives from behind does not count");
+  app->add_flag("--check", options->request.check,
+                "run the answer once; its noise is added to what is known; default: not");
+  app->add_flag("--front-facing", options->request.front_facing, "light that arrives from behind does not count");
   app->add_option(
-      "--checkpoint", options->checkpoint,
+      "--checkpoint", options->request.checkpoint,
       "keep in this file the pilots and the runs of --seeds, so that the command can be killed; default: none");
-  app->add_flag("--resume", options->resume, "go on from the checkpoint; default: begin anew");
+  app->add_flag("--resume", options->request.resume, "go on from the checkpoint; default: begin anew");
   return {app,
           [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_accuracy(*options, common, stop);
