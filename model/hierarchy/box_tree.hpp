@@ -11,7 +11,7 @@
 ///     tests of boxes = n_R Σ_inner P(node) children        listed = n_R Σ P(node)
 ///     disc tests     = n_R Σ_leaves P(node) discs          P of the root is 1; its rays are not listed
 ///
-/// This is exact if the tree is known (validate/structural/structural_boxes.hpp). If only the workload's numbers are
+/// This is exact if the tree is known (validate/structural/structural_parts.hpp). If only the workload's numbers are
 /// known, the model follows the builder's decisions level by level, on the tree expected for random samples:
 ///
 ///   box_tree_cells.hpp      how many cells the curve has on each level, and how many samples a cell expects

@@ -155,10 +155,12 @@ const Columns& workload_columns() {
 const Fields<Candidate>& candidate_fields() {
   static const Fields<Candidate> fields = [] {
     std::vector<Column> parameters;
-    for (const Technique technique : all_techniques)
-      for (const auto& [parameter, value] : to_json(default_candidate(technique)).items())
+    for (const Technique technique : all_techniques) {
+      const Json of_one = to_json(default_candidate(technique));
+      for (const auto& [parameter, value] : of_one.items())
         if (std::ranges::find(parameters, parameter, &Column::name) == parameters.end())
           parameters.push_back({parameter, "/" + parameter});
+    }
     using Of = Field<Candidate>;
     return Fields<Candidate>{
         Of("technique", "", "name of the technique", [](const Candidate& one) { return name(one.technique); }),

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "choice.hpp"
-#include "closed_forms.hpp"
+#include "comparison.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"

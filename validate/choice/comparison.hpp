@@ -1,11 +1,13 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "choice.hpp"
+#include "detp/model/rank/choose.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// How predictions of different kinds are compared, and what a sample counted with the other techniques.
+/// How predictions of different kinds are compared: closed forms, and what a sample counted with the other techniques.
 namespace detp::validate {
 
 /// How many times as long as predicted a search may take, in scenes for which its closed form was not made.
@@ -22,6 +24,20 @@ inline constexpr double closed_form_doubt = 2;
 /// Then sorts them by time, but with the choice first: the one that is fastest even so (the fastest, if all are doubted
 /// without limit). A box tree needs `prepared` less than its time, because its discs are sorted already.
 void put_choice_first(std::vector<Prediction>& candidates, bool counted_scene, double prepared = 0);
+
+/// Whether the question has a workload, or discs and rays on which it can be measured.
+[[nodiscard]] bool can_measure(const Question& question);
+
+/// The question's workload with that number of rays: measured on its rays and discs, unless it has one. For one search that is too short for
+/// evidence to pay (sim::evidence_can_pay), the workload with the meanings of the input alone. Throws as sim::set_rays and sim::observe.
+[[nodiscard]] Workload evidence(const Question& question, double rays);
+
+/// model::rank without the disabled techniques, the choice first (put_choice_first). model::rank does not tune a technique
+/// that is slower than another one; where that one is disabled, this function tunes it. Empty if all are disabled. Throws as
+/// model::rank.
+[[nodiscard]] std::vector<Prediction> allowed_ranking(const Valid<Workload>& workload, const Valid<CostTable>& costs,
+                                                      std::span<const Technique> disabled,
+                                                      const model::SearchLimits& limits = {});
 
 /// The costs, and the most threads for which a choice is made.
 struct Prices {

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <utility>
 
-#include "box_tree_guess.hpp"
 #include "comparison.hpp"
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
@@ -20,7 +19,6 @@
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/searcher.hpp"
-#include "structural_sample.hpp"
 
 namespace detp::validate {
 namespace {
@@ -132,9 +130,6 @@ double least_box_tree_seconds(const sim::Problem& problem, std::span<const sim::
   return prices(least_box_tree_counts(problem, rays, size.rays), Technique::box_tree).time.total();
 }
 
-/// The time of a run in units of some 50 ns, roughly.
-double work_of(double rays, double discs) { return discs + 4 * rays; }
-
 /// Below this work, a pilot takes more than some 5 % of the run.
 constexpr double least_work = 1e6;
 
@@ -144,42 +139,22 @@ std::size_t subtrees_of(double rays, double discs) {
   return static_cast<std::size_t>(std::clamp(work_of(rays, discs) / 50'000, 5.0, 32.0));
 }
 
-}  // namespace
-
-std::size_t pilot_size(double rays, double discs) {
-  return static_cast<std::size_t>(std::clamp(work_of(rays, discs) / 600, 64.0, 2048.0));
-}
-
-std::vector<sim::Ray> pilot_sample(std::span<const sim::Ray> rays, std::size_t discs) {
-  const std::size_t enough = pilot_size(static_cast<double>(rays.size()), static_cast<double>(discs));
-  std::vector<sim::Ray> sample;
-  for (const std::size_t ray : sim::stratified_sample(rays.size(), enough, 1, sim::Stream::pilot))
-    sample.push_back(rays[ray]);
-  return sample;
-}
-
-namespace {
-
-/// What is sampled of a search, and how.
-struct Sample {
-  std::vector<sim::Ray> rays;
-  bool independent = false;          ///< as sim::PilotRays::independent
-  std::optional<double> hits = {};   ///< as sim::PilotRays::hits
-  std::span<const sim::Ray> others;  ///< as sim::PilotRays::others
-};
-
-Sample sample_of(const Question& question, Rigor rigor, const sim::Problem& problem) {
+/// The sample of a search, which `kept` has.
+sim::stream::PilotRays sample_of(const Question& question, Rigor rigor, const sim::Problem& problem,
+                                 std::vector<sim::Ray>& kept) {
   const std::size_t discs = problem.discs().size();
   if (rigor == Rigor::structural) {
     if (!question.workload) throw std::invalid_argument("a structural choice needs a workload");
-    return {.rays = structural_sample(problem.enclosing(), *question.workload,
-                                      pilot_size(*question.ray_count, static_cast<double>(discs))),
+    kept = structural_sample(problem.enclosing(), *question.workload,
+                             pilot_size(*question.ray_count, static_cast<double>(discs)));
+    return {.sample = kept,
+            .all = *question.ray_count,
             .independent = true,
-            .hits = model::expected_hits(*question.workload),
-            .others = {}};
+            .hits = model::expected_hits(*question.workload)};
   }
   if (question.rays.empty()) throw std::invalid_argument("a pilot needs rays");
-  return {.rays = pilot_sample(question.rays, discs), .others = question.rays};
+  kept = pilot_sample(question.rays, discs);
+  return {.sample = kept, .all = *question.ray_count, .others = question.rays};
 }
 
 class SampleChoice {
@@ -211,11 +186,11 @@ class SampleChoice {
     const double work = work_of(*question_.ray_count, discs_);
     const bool is_short = question_.purpose == Purpose::one_search && work < least_work;
     if (is_short && rigor_ == Rigor::pilot) {  // one ray stands for all: nothing is culled
-      sample_.rays.assign(question_.rays.begin(), question_.rays.begin() + 1);
+      sample_ = {.sample = question_.rays.first(1), .all = *question_.ray_count};
     } else {
-      sample_ = sample_of(question_, rigor_, problem_);
+      sample_ = sample_of(question_, rigor_, problem_, kept_);
     }
-    const SearchSize size = size_of(sample_.rays);
+    const SearchSize size = size_of(sample_.sample);
     if (question_.allows(Technique::brute_force) && is_brute_force_faster(size)) return true;
     if (!is_short) return false;
     found_.candidates = {usual_box_tree(usual_, size, prices_)};
@@ -228,10 +203,10 @@ class SampleChoice {
                                              : 0;
     const double error_of_hits = hits > 0 ? hits : size.rays * size.discs;  // nothing is known
     const Prediction brute = brute_force(size, hits, error_of_hits, prices_);
-    const double least = least_box_tree_seconds(problem_, sample_.rays, size, preparing_, brute.seconds(), prices_);
+    const double least = least_box_tree_seconds(problem_, sample_.sample, size, preparing_, brute.seconds(), prices_);
     if (brute.seconds() >= least) return false;
     sim::Problem of_sample = problem_;
-    sim::set_rays(of_sample, sample_.rays);  // checks the sample, as a pilot does
+    sim::set_rays(of_sample, sample_.sample);  // checks the sample, as a pilot does
     found_.candidates = {brute};
     found_.ruled_out = {{Technique::box_tree, least, true}};
     compare_others(question_, size, prices_, false, 0, found_);
@@ -239,16 +214,11 @@ class SampleChoice {
   }
 
   void decide_by_pilot() {
-    const SearchSize size = size_of(sample_.rays);
-    found_.sampled_rays = sample_.rays.size();
-    found_.discs = std::make_shared<sim::PilotedDiscs>(
-        problem_,
-        sim::stream::PilotRays{.sample = sample_.rays,
-                               .all = size.rays,
-                               .independent = sample_.independent,
-                               .hits = sample_.hits,
-                               .others = sample_.others},
-        subtrees_of(size.rays, size.discs), sim::RunOptions{.stop = question_.stop, .threads = question_.threads});
+    const SearchSize size = size_of(sample_.sample);
+    found_.sampled_rays = sample_.sample.size();
+    found_.discs =
+        std::make_shared<sim::PilotedDiscs>(problem_, sample_, subtrees_of(size.rays, size.discs),
+                                            sim::RunOptions{.stop = question_.stop, .threads = question_.threads});
     found_.sort_seconds = found_.discs->sort_seconds();
     found_.candidates = ShapeSearch(*found_.discs, prices_, question_.purpose == Purpose::replans).run(usual_);
     if (question_.allows(Technique::brute_force)) {
@@ -267,7 +237,8 @@ class SampleChoice {
   double discs_;
   BoxTreeParameters usual_;
   double preparing_;
-  Sample sample_ = {};
+  std::vector<sim::Ray> kept_ = {};
+  sim::stream::PilotRays sample_ = {};
   Choice found_ = {};
 };
 

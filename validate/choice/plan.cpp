@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "choice.hpp"
-#include "closed_forms.hpp"
+#include "comparison.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
@@ -61,6 +61,11 @@ void check_all(const sim::Problem& problem, const sim::RaysView& view, const Pla
 }
 
 }  // namespace
+
+double Plan::peak_bytes() const {
+  return sizeof(sim::Ray) * rays_ + sizeof(sim::Disc) * static_cast<double>(basis_->problem.discs().size()) +
+         predicted_.bytes_touched;
+}
 
 bool Plan::is_built() const { return searcher_->is_built(); }
 void Plan::build(const std::stop_token& stop) const { static_cast<void>(searcher_->get(stop)); }
@@ -152,17 +157,16 @@ class Plan::Planner {
 
   Plan planned(Rigor rigor, std::unique_ptr<sim::Index> index) {
     const Prediction& best = basis_->candidates.front();
-    Plan made(basis_, best.candidate);
+    Plan made;
+    made.candidate_ = best.candidate;
+    made.basis_ = basis_;
     made.searcher_ = std::make_shared<LateSearcher>(sim::Searcher(basis_->problem, std::move(index)));
-    made.threads_ = best.threads;
+    made.predicted_ = Predicted(best);
     const double reading = reading_ * basis_->rays / static_cast<double>(rays_.size());
-    made.predicted_seconds_ = best.time.total() + reading;
-    made.predicted_seconds_again_ = best.time.again() + reading;
-    made.prepare_seconds_ = best.time.order + best.time.build;
-    made.peak_bytes_ = bytes_in_memory(basis_->rays, basis_->problem.discs().size(), best.counts.bytes_touched);
-    made.predicted_error_ = best.error;
-    made.planning_seconds_ = seconds_;
+    made.predicted_.seconds += reading;
+    made.predicted_.again += reading;
     made.rays_ = basis_->rays;
+    made.planning_seconds_ = seconds_;
     made.rigor_ = rigor;
     return made;
   }

@@ -42,18 +42,18 @@ class Plan {
  public:
   [[nodiscard]] const Candidate& candidate() const { return candidate_; }
   /// Number of threads of a search, at most PlanOptions::threads.
-  [[nodiscard]] int threads() const { return threads_; }
+  [[nodiscard]] int threads() const { return predicted_.threads; }
   /// Predicted time of one search on threads(). Includes building, and also sorting, unless the discs' order is known.
-  [[nodiscard]] double predicted_seconds() const { return predicted_seconds_; }
+  [[nodiscard]] double predicted_seconds() const { return predicted_.seconds; }
   /// The same of a repeated search, whose memory (sim::SearchScratch) is that of an earlier one.
-  [[nodiscard]] double predicted_seconds_again() const { return predicted_seconds_again_; }
+  [[nodiscard]] double predicted_seconds_again() const { return predicted_.again; }
   /// Of predicted_seconds, sorting the discs and building the index.
-  [[nodiscard]] double prepare_seconds() const { return prepare_seconds_; }
+  [[nodiscard]] double prepare_seconds() const { return predicted_.prepare; }
   /// Predicted memory of rays, discs and a first search of them, bytes.
-  [[nodiscard]] double peak_bytes() const { return peak_bytes_; }
+  [[nodiscard]] double peak_bytes() const;
   /// Standard error of the predicted time: because the pilot has only a sample of rays and subtrees, and because of the unit
   /// costs (CostTable::relative_errors). After `replan`, that of the extrapolation comes in addition.
-  [[nodiscard]] double predicted_error() const { return predicted_error_; }
+  [[nodiscard]] double predicted_error() const { return predicted_.error; }
   [[nodiscard]] double planning_seconds() const { return planning_seconds_; }  ///< without sorting and building
   [[nodiscard]] Rigor rigor() const { return rigor_; }                         ///< reached
 
@@ -69,19 +69,31 @@ class Plan {
   friend Plan replan(const Plan&, double, std::optional<double>);
   struct Basis;
   class Planner;
-  Plan(std::shared_ptr<const Basis> basis, const Candidate& candidate)
-      : candidate_(candidate), basis_(std::move(basis)) {}
+  Plan() = default;
+  /// Of one search.
+  struct Predicted {
+    Predicted() = default;
+    explicit Predicted(const Prediction& one)
+        : threads(one.threads),
+          seconds(one.seconds()),
+          again(one.time.again()),
+          prepare(one.time.order + one.time.build),
+          bytes_touched(one.counts.bytes_touched),
+          error(one.error) {}
+
+    int threads = 1;
+    double seconds = 0;
+    double again = 0;    ///< seconds of a repeated search
+    double prepare = 0;  ///< of seconds
+    double bytes_touched = 0;
+    double error = 0;  ///< of seconds
+  };
 
   Candidate candidate_;
   std::shared_ptr<const Basis> basis_;
   std::shared_ptr<LateSearcher> searcher_;
-  int threads_ = 1;
+  Predicted predicted_ = {};
   double rays_ = 0;  ///< number of rays in each search
-  double predicted_seconds_ = 0;
-  double predicted_seconds_again_ = 0;
-  double prepare_seconds_ = 0;
-  double peak_bytes_ = 0;
-  double predicted_error_ = 0;
   double planning_seconds_ = 0;
   Rigor rigor_ = Rigor::estimate;
 };

@@ -70,9 +70,4 @@ struct Plan::Basis {
 /// the radius, of the second and third degree, without negative coefficients (Steiner's formula).
 [[nodiscard]] double least_time_ratio(double radius_ratio, double rays_ratio);
 
-/// Of rays, discs and a first search of them.
-[[nodiscard]] inline double bytes_in_memory(double rays, std::size_t discs, double bytes_touched) {
-  return sizeof(sim::Ray) * rays + sizeof(sim::Disc) * static_cast<double>(discs) + bytes_touched;
-}
-
 }  // namespace detp::validate

@@ -16,17 +16,6 @@
 namespace detp::validate {
 namespace {
 
-struct Replanned {
-  const Prediction* candidate = nullptr;
-  double seconds = std::numeric_limits<double>::infinity();
-  int threads = 1;
-  double again = 0;    ///< seconds of a repeated search
-  double prepare = 0;  ///< of seconds
-  double bytes_touched = 0;
-
-  [[nodiscard]] double judged_seconds() const { return candidate == nullptr ? seconds : seconds * candidate->doubt; }
-};
-
 /// The discs with another radius.
 std::vector<sim::Disc> resized(std::span<const sim::Disc> discs, double radius, const std::stop_token& stop) {
   sim::StopCheck check(stop, "changing the radius of the discs");
@@ -59,46 +48,43 @@ Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays) {
   const int most_threads = sim::useful_threads(basis.options.threads);
   const double least_ratio = least_time_ratio(disc_radius / basis.radius, count / basis.rays);
   std::optional<Workload> now;
-  const auto by_closed_form = [&](const Prediction& one) -> Replanned {
-    const double ratio = count / basis.rays;
-    if (!basis.workload)
-      return {&one,
-              one.seconds() * ratio,
-              one.threads,
-              one.time.again() * ratio,
-              (one.time.order + one.time.build) * ratio,
-              one.counts.bytes_touched};
+  const auto by_closed_form = [&](const Prediction& one) {
+    if (!basis.workload) {
+      const double ratio = count / basis.rays;
+      Plan::Predicted scaled(one);
+      for (double* seconds : {&scaled.seconds, &scaled.again, &scaled.prepare}) *seconds *= ratio;
+      return scaled;
+    }
     if (!now) {
       now = with_disc_radius(*basis.workload, disc_radius);
       now->rays = count;
     }
-    const Prediction found = model::assess(*now, one.candidate, basis.options.costs, most_threads);
-    return {&one,
-            found.seconds(),
-            found.threads,
-            found.time.again(),
-            found.time.order + found.time.build,
-            found.counts.bytes_touched};
+    return Plan::Predicted(model::assess(*now, one.candidate, basis.options.costs, most_threads));
   };
-  const auto by_pilot = [&](const Prediction& one) -> Replanned {
-    Counts<double> counts =
-        with_bytes_touched(one.counts_at(disc_radius / basis.radius, count), one.candidate, basis.options.costs.engine);
-    if (basis.order) counts.sorted = 0;
-    const auto fastest = fastest_price(counts, basis.options.costs, one.candidate.technique, most_threads);
-    return {&one,
-            fastest.time.total(),
-            fastest.threads,
-            fastest.time.again(),
-            fastest.time.order + fastest.time.build,
-            counts.bytes_touched};
+  const auto by_pilot = [&](const Prediction& one) {
+    Prediction found{.counts = with_bytes_touched(one.counts_at(disc_radius / basis.radius, count), one.candidate,
+                                                  basis.options.costs.engine)};
+    if (basis.order) found.counts.sorted = 0;
+    const auto [threads, time] =
+        fastest_price(found.counts, basis.options.costs, one.candidate.technique, most_threads);
+    found.threads = threads;
+    found.time = time;
+    return Plan::Predicted(found);
   };
-  Replanned best;
+  Plan made;
+  const Prediction* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();  // seconds, doubted
   for (const Prediction& one : basis.candidates) {
-    if (!one.counts_at && one.doubtful_seconds() * least_ratio >= best.judged_seconds()) continue;  // it cannot win
-    const Replanned found = one.counts_at ? by_pilot(one) : by_closed_form(one);
-    if (found.judged_seconds() < best.judged_seconds() || best.candidate == nullptr) best = found;
+    if (!one.counts_at && one.doubtful_seconds() * least_ratio >= least) continue;  // it cannot win
+    const Plan::Predicted found = one.counts_at ? by_pilot(one) : by_closed_form(one);
+    if (best != nullptr && !(found.seconds * one.doubt < least)) continue;
+    best = &one;
+    least = found.seconds * one.doubt;
+    made.predicted_ = found;
   }
-  Plan made(plan.basis_, best.candidate->candidate);
+  made.predicted_.error = best->seconds() > 0 ? best->error * made.predicted_.seconds / best->seconds() : 0;
+  made.candidate_ = best->candidate;
+  made.basis_ = plan.basis_;
   made.searcher_ =
       std::make_shared<LateSearcher>([shared = plan.basis_, candidate = made.candidate_, disc_radius,
                                       discs = std::vector<sim::Disc>()](const std::stop_token& stop) mutable {
@@ -109,13 +95,6 @@ Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays) {
         auto index = build_index(problem, candidate, shared->order, building);
         return sim::Searcher(std::move(problem), std::move(index));
       });
-  made.threads_ = best.threads;
-  made.predicted_seconds_ = best.seconds;
-  made.predicted_seconds_again_ = best.again;
-  made.prepare_seconds_ = best.prepare;
-  made.peak_bytes_ = bytes_in_memory(count, basis.problem.discs().size(), best.bytes_touched);
-  made.predicted_error_ =
-      best.candidate->seconds() > 0 ? best.candidate->error * best.seconds / best.candidate->seconds() : 0;
   made.rays_ = count;
   made.rigor_ = plan.rigor_;
   made.planning_seconds_ = watch.seconds();

@@ -50,30 +50,8 @@ ChoiceThere choice_there(const Choice& choice, double unchanged_seconds) {
 constexpr double accuracy = 1.05;  // of the value at which a choice changes
 constexpr std::array all_kinds{TipKind::technique, TipKind::not_ruled_out, TipKind::parameters, TipKind::threads};
 
-double value_of(const TipInputs& inputs, TipInput input) {
-  switch (input) {
-    case TipInput::disc_radius:
-      return inputs.disc_radius;
-    case TipInput::rays:
-      return inputs.rays;
-    case TipInput::threads:
-      return inputs.threads;
-  }
-  return 0;
-}
-
 TipInputs with_value(TipInputs inputs, TipInput input, double value) {
-  switch (input) {
-    case TipInput::disc_radius:
-      inputs.disc_radius = value;
-      break;
-    case TipInput::rays:
-      inputs.rays = value;
-      break;
-    case TipInput::threads:
-      inputs.threads = static_cast<int>(value);
-      break;
-  }
+  inputs[input] = value;
   return inputs;
 }
 
@@ -104,7 +82,7 @@ class TipFinder {
 
   Tips run() {
     for (const TipInput input : tip_inputs)
-      found_.ranges[static_cast<std::size_t>(input)] = {value_of(present_, input), value_of(present_, input)};
+      found_.ranges[static_cast<std::size_t>(input)] = {present_[input], present_[input]};
     const auto now = choice_with(present_);
     if (!now) return std::move(found_);
     now_ = *now;
@@ -117,12 +95,12 @@ class TipFinder {
   }
 
  private:
-  [[nodiscard]] std::vector<double> values(TipInput input, bool up) const {
+  [[nodiscard]] std::vector<double> values(TipInput input, bool up) {
     std::vector<double> all;
-    double last = value_of(present_, input);
+    double last = present_[input];
     for (int i = 1; i <= search_.steps; ++i) {
       const double power = static_cast<double>(up ? i : -i) / search_.steps;
-      const double value = rounded(input, value_of(present_, input) * std::pow(search_.factor, power));
+      const double value = rounded(input, present_[input] * std::pow(search_.factor, power));
       if (value != last) all.push_back(value);
       last = value;
     }
@@ -131,7 +109,7 @@ class TipFinder {
 
   [[nodiscard]] std::vector<double> thread_values(bool up) const {
     std::vector<double> all;
-    for (const int threads : thread_numbers(std::max(search_.most_threads, present_.threads)))
+    for (const int threads : thread_numbers(std::max(search_.most_threads, static_cast<int>(present_.threads))))
       if (up ? threads > present_.threads : threads < present_.threads) all.push_back(threads);
     if (!up) std::reverse(all.begin(), all.end());
     return all;
@@ -167,7 +145,7 @@ class TipFinder {
       case TipKind::parameters:
         return same && there.unchanged_seconds > (1 + distinguishable) * there.best.seconds();
       case TipKind::threads:
-        return same && there.best.threads != std::min(now_.best.threads, inputs.threads);
+        return same && there.best.threads != std::min<double>(now_.best.threads, inputs.threads);
     }
     return false;
   }
@@ -189,7 +167,7 @@ class TipFinder {
     }
     const Candidate candidate =
         kind == TipKind::not_ruled_out ? default_candidate(possible(there).value()) : there.best.candidate;
-    return {input, kind, value, value / value_of(present_, input), candidate, there.best.threads};
+    return {input, kind, value, value / present_[input], candidate, there.best.threads};
   }
 
   /// Examines values that are farther and farther away.
@@ -198,7 +176,7 @@ class TipFinder {
     const auto find = [&](TipKind kind) {
       return std::find_if(tips.begin(), tips.end(), [&](const Tip& tip) { return tip.kind == kind; });
     };
-    double before = value_of(present_, input);
+    double before = present_[input];
     for (const double value : values) {
       const TipInputs inputs = with_value(present_, input, value);
       const auto there = choice_with(inputs);
@@ -240,12 +218,12 @@ Tips tips_of(const Choice& choice, const Question& question, const Valid<CostTab
   const auto choose = [&](const TipInputs& inputs) -> std::optional<ChoiceThere> {
     try {
       Question changed = question;
-      changed.threads = inputs.threads;
+      changed.threads = static_cast<int>(inputs.threads);
       const Choice there =
           choose_again(counted, changed, inputs.disc_radius / workload.disc_radius, inputs.rays, costs);
       Workload with_inputs = with_disc_radius(workload, inputs.disc_radius);
       with_inputs.rays = inputs.rays;
-      return choice_there(there, seconds_in(there, present, with_inputs, priced, inputs.threads));
+      return choice_there(there, seconds_in(there, present, with_inputs, priced, changed.threads));
     } catch (const std::invalid_argument&) {  // no workload has this radius
       return std::nullopt;
     } catch (const sim::Stopped&) {
@@ -253,7 +231,8 @@ Tips tips_of(const Choice& choice, const Question& question, const Valid<CostTab
     }
   };
   return find_tips(
-      {workload.disc_radius, question.ray_count.value_or(workload.rays), sim::useful_threads(question.threads)},
+      {workload.disc_radius, question.ray_count.value_or(workload.rays),
+       static_cast<double>(sim::useful_threads(question.threads))},
       {.factor = choice.rigor == Rigor::estimate ? 16.0 : 4.0, .steps = 4, .most_threads = sim::useful_threads(0)},
       choose, question.stop);
 }

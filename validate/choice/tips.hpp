@@ -33,7 +33,11 @@ enum class TipKind {
 struct TipInputs {
   double disc_radius = 0;  ///< length
   double rays = 0;         ///< number of rays, a whole number
-  int threads = 1;         ///< most threads
+  double threads = 1;      ///< most threads, a whole number
+
+  [[nodiscard]] double& operator[](TipInput input) {
+    return input == TipInput::disc_radius ? disc_radius : input == TipInput::rays ? rays : threads;
+  }
 };
 
 /// The choice for some inputs.

@@ -14,7 +14,7 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/base/search_work.hpp"
-#include "detp/validate/structural/structural_walk.hpp"
+#include "detp/validate/structural/structural_parts.hpp"
 #include "experiments.hpp"
 
 namespace detp::validate {

@@ -3,7 +3,7 @@
 #include "detp/model/rank/paper_rule.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/choice/analysis.hpp"
-#include "detp/validate/choice/box_tree_guess.hpp"
+#include "detp/validate/choice/pilot.hpp"
 
 namespace detp::validate {
 namespace {

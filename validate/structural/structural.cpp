@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <variant>
 
 #include "detp/sim/base/floating_point.hpp"
-#include "structural_registry.hpp"
+#include "structural_parts.hpp"
 
 namespace detp::validate {
 namespace {
@@ -17,23 +18,30 @@ double expected_hits(const sim::Problem& problem, double rays) {
   return rays * hits;
 }
 
-}  // namespace
-
-Counts<double> structural_brute_force(const sim::Problem& problem, const Lines& lines, const Parameters&,
-                                      const std::stop_token&) {
+Counts<double> counts_of(const sim::Problem& problem, const Lines& lines, const BruteForceParameters&,
+                         const std::stop_token&) {
   const auto discs = static_cast<double>(problem.discs().size());
   return {.visits = discs * lines.blocks(problem).count(), .disc_tests = lines.rays * discs};
 }
+
+}  // namespace
 
 Counts<double> structural_counts(const sim::Problem& problem, double rays, const Valid<Candidate>& candidate,
                                  const std::stop_token& stop, bool front_facing, Engine engine) {
   const sim::DefaultFloatingPoint mode;
   require_count("number of rays", rays, 1, 1e18);
-  const StructuralModel model = structural_model(candidate.technique);
-  if (model.counts == nullptr)
-    throw std::invalid_argument(
-        fmt::format("{} has no structural counts: {}", name(candidate.technique), model.why_none));
-  Counts<double> counts = model.counts(problem, {rays, engine}, candidate.parameters, stop);
+  const auto none = [&](const char* why) {
+    return std::invalid_argument(fmt::format("{} has no structural counts: {}", name(candidate.technique), why));
+  };
+  if (candidate.technique == Technique::sphere_cache_published) throw none("its walk loses rays");
+  Counts<double> counts = std::visit(
+      [&](const auto& parameters) -> Counts<double> {
+        if constexpr (requires { counts_of(problem, Lines{rays, engine}, parameters, stop); })
+          return counts_of(problem, Lines{rays, engine}, parameters, stop);
+        else
+          throw none("it can only be run");
+      },
+      candidate.parameters);
   counts.loaded = rays;
   counts.hits = (front_facing ? 0.5 : 1) * expected_hits(problem, rays);
   return counts;

@@ -12,7 +12,7 @@ namespace detp::validate {
 /// Structural rigor: the expected value of every count of a candidate, computed from the discs without rays.
 ///
 ///     octree, grid, bsp    builds the index and sums its nodes' surface areas (structural_index.cpp)
-///     sphere cache         walks along the sorted samples (structural_walk.hpp)
+///     sphere cache         walks along the sorted samples (structural_walk.cpp)
 ///     hierarchies          builds the tree and sums its spheres' surface areas, or the shares of lines that its boxes
 ///                          list (structural_hierarchy.cpp)
 ///     brute force          n_R n_P tests

@@ -1,4 +1,4 @@
-#include "structural_boxes.hpp"
+#include "structural_parts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -99,11 +99,10 @@ double BoxCrossing::operator()(const TreeNode& box) const {
   return std::min(1.0, share * share_through(outer_, centre, half, lines, engine_));
 }
 
-Counts<double> structural_box_tree(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
-                                   const std::stop_token& stop) {
+Counts<double> counts_of(const sim::Problem& problem, const Lines& lines, const BoxTreeParameters& parameters,
+                         const std::stop_token& stop) {
   const sim::stream::Frame frame(problem);
-  const sim::stream::DiscTree tree =
-      sim::stream::make_disc_tree(problem, frame, std::get<BoxTreeParameters>(parameters), {.stop = stop});
+  const sim::stream::DiscTree tree = sim::stream::make_disc_tree(problem, frame, parameters, {.stop = stop});
   const BoxCrossing crossing(problem.enclosing().radius * frame.scale, frame.margin, lines.engine);
   const auto discs = static_cast<double>(problem.discs().size());
   const RayBlocks blocks = lines.blocks(problem);

@@ -8,7 +8,7 @@
 #include "detp/sim/lists/cell_walk.hpp"
 #include "detp/sim/lists/plain/ray_list.hpp"
 #include "detp/sim/lists/sphere_nodes.hpp"
-#include "structural_registry.hpp"
+#include "structural_parts.hpp"
 
 /// Expected counts of hierarchies of spheres and of boxes, computed from the hierarchy without rays.
 ///
@@ -53,29 +53,6 @@ class Crossing {
   sim::Sphere enclosing_;
 };
 
-/// Counts per ray.
-Counts<double> cell_spheres(const sim::Problem& problem, const CellSpheresParameters& parameters,
-                            const std::stop_token& stop) {
-  sim::StopCheck check(stop, "counting spheres");
-  const Crossing crossing(problem.enclosing());
-  sim::CellWalk walk(problem.discs(), parameters.depth);
-  std::vector<double> listed(static_cast<std::size_t>(parameters.depth) + 1, 1);  // S₀'s list: every ray
-  Counts<double> counts;
-  for (const std::uint32_t d : sim::along_curve(problem.discs(), SampleOrder::lebesgue, stop)) {
-    for (int level = std::max(1, walk.enter(problem.discs()[d])); level <= parameters.depth; ++level) {
-      const auto i = static_cast<std::size_t>(level);
-      listed[i] = crossing(walk.sphere(level));
-      ++counts.culls;
-      counts.cull_tests += listed[i - 1];
-      counts.listed += listed[i];
-    }
-    ++counts.visits;
-    counts.disc_tests += listed.back();
-    check.after(listed.size());
-  }
-  return counts;
-}
-
 /// The probability that a list holds at least one of `rays` rays, if each ray is in the list with probability `share`.
 double holds_a_ray(double share, double rays) { return share < 1 ? -std::expm1(rays * std::log1p(-share)) : 1; }
 
@@ -95,9 +72,44 @@ OverChildren over_children(const std::vector<double>& crossed, std::size_t child
   return sums;
 }
 
-/// Counts per ray, except `culls` and `visits`, which are the numbers of lists made and discs visited for all rays.
-Counts<double> sphere_tree(const sim::Problem& problem, double rays, const SphereTreeParameters& parameters,
-                           const std::stop_token& stop) {
+/// Tests and listed rays are those of each ray; the other counts are of all.
+Counts<double> of_rays(Counts<double> per_ray, const sim::Problem& problem, double rays) {
+  per_ray.cull_tests *= rays;
+  per_ray.listed *= rays;
+  per_ray.disc_tests *= rays;
+  per_ray.sorted = static_cast<double>(problem.discs().size());
+  return per_ray;
+}
+
+}  // namespace
+
+Counts<double> counts_of(const sim::Problem& problem, const Lines& lines, const CellSpheresParameters& parameters,
+                         const std::stop_token& stop) {
+  sim::StopCheck check(stop, "counting spheres");
+  const Crossing crossing(problem.enclosing());
+  sim::CellWalk walk(problem.discs(), parameters.depth);
+  std::vector<double> listed(static_cast<std::size_t>(parameters.depth) + 1, 1);  // S₀'s list: every ray
+  Counts<double> counts;
+  for (const std::uint32_t d : sim::along_curve(problem.discs(), SampleOrder::lebesgue, stop)) {
+    for (int level = std::max(1, walk.enter(problem.discs()[d])); level <= parameters.depth; ++level) {
+      const auto i = static_cast<std::size_t>(level);
+      listed[i] = crossing(walk.sphere(level));
+      ++counts.culls;
+      counts.cull_tests += listed[i - 1];
+      counts.listed += listed[i];
+    }
+    ++counts.visits;
+    counts.disc_tests += listed.back();
+    check.after(listed.size());
+  }
+  const double blocks = lines.blocks(problem).count();
+  counts.culls *= blocks;
+  counts.visits *= blocks;
+  return of_rays(counts, problem, lines.rays);
+}
+
+Counts<double> counts_of(const sim::Problem& problem, const Lines& lines, const SphereTreeParameters& parameters,
+                         const std::stop_token& stop) {
   sim::StopCheck check(stop, "counting spheres");
   const Crossing crossing(problem.enclosing());
   const sim::SphereTree tree = sim::make_sphere_tree(
@@ -110,37 +122,12 @@ Counts<double> sphere_tree(const sim::Problem& problem, double rays, const Spher
     counts.listed += std::accumulate(crossed.begin(), crossed.end(), 0.0);
     const bool leaves = level == 0;
     const std::size_t children = leaves ? problem.discs().size() : tree.levels[level - 1].size();
-    const OverChildren sums = over_children(crossed, children, leaves ? parameters.leaf : parameters.fan_out, rays);
+    const OverChildren sums =
+        over_children(crossed, children, leaves ? parameters.leaf : parameters.fan_out, lines.rays);
     (leaves ? counts.disc_tests : counts.cull_tests) += sums.share;
     (leaves ? counts.visits : counts.culls) += sums.reached;
   }
-  return counts;
-}
-
-Counts<double> of_rays(Counts<double> per_ray, const sim::Problem& problem, double rays) {
-  per_ray.cull_tests *= rays;
-  per_ray.listed *= rays;
-  per_ray.disc_tests *= rays;
-  per_ray.sorted = static_cast<double>(problem.discs().size());
-  return per_ray;
-}
-
-}  // namespace
-
-Counts<double> structural_cell_spheres(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
-                                       const std::stop_token& stop) {
-  Counts<double> counts =
-      of_rays(cell_spheres(problem, std::get<CellSpheresParameters>(parameters), stop), problem, lines.rays);
-  const double blocks = lines.blocks(problem).count();
-  counts.culls *= blocks;
-  counts.visits *= blocks;
-  return counts;
-}
-
-Counts<double> structural_sphere_tree(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
-                                      const std::stop_token& stop) {
-  return of_rays(sphere_tree(problem, lines.rays, std::get<SphereTreeParameters>(parameters), stop), problem,
-                 lines.rays);
+  return of_rays(counts, problem, lines.rays);
 }
 
 }  // namespace detp::validate

@@ -1,4 +1,4 @@
-#include "structural_registry.hpp"
+#include "structural_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -88,9 +88,9 @@ sim::Ray line_into(const sim::Box& box, const Entry& entry) {
 }
 
 /// P(node).
-class BoxCrossing {
+class NodeCrossing {
  public:
-  explicit BoxCrossing(const sim::Sphere& enclosing) : enclosing_(enclosing) {}
+  explicit NodeCrossing(const sim::Sphere& enclosing) : enclosing_(enclosing) {}
 
   double operator()(const sim::Box& box) {
     const double share = area_of(box.size()) / (4 * pi * enclosing_.radius * enclosing_.radius);
@@ -119,7 +119,7 @@ template <class Inspect>
 Counts<double> index_counts(const sim::Problem& problem, double rays, double Counts<double>::*visited,
                             const std::stop_token& stop, const Inspect& inspect) {
   sim::StopCheck check(stop, "counting cells");
-  BoxCrossing crossing(problem.enclosing());
+  NodeCrossing crossing(problem.enclosing());
   double visits = 0;
   double tests = 0;
   const sim::IndexSize size = inspect([&](const sim::IndexNode& node) {
@@ -137,28 +137,25 @@ Counts<double> index_counts(const sim::Problem& problem, double rays, double Cou
 
 }  // namespace
 
-Counts<double> structural_octree(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
-                                 const std::stop_token& stop) {
-  const auto& own = std::get<OctreeParameters>(parameters);
-  if (own.traversal != Traversal::top_down && own.traversal != Traversal::front_to_back)
-    throw std::invalid_argument(
-        fmt::format("structural counts know an octree top-down or front-to-back only (got {})", name(own.traversal)));
+Counts<double> counts_of(const sim::Problem& problem, const Lines& lines, const OctreeParameters& parameters,
+                         const std::stop_token& stop) {
+  if (parameters.traversal != Traversal::top_down && parameters.traversal != Traversal::front_to_back)
+    throw std::invalid_argument(fmt::format("structural counts know an octree top-down or front-to-back only (got {})",
+                                            name(parameters.traversal)));
   return index_counts(problem, lines.rays, &Counts<double>::nodes, stop,
-                      [&](const auto& visit) { return inspect_octree(problem, own, {}, visit, stop); });
+                      [&](const auto& visit) { return inspect_octree(problem, parameters, {}, visit, stop); });
 }
 
-Counts<double> structural_grid(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
-                               const std::stop_token& stop) {
-  const auto& own = std::get<GridParameters>(parameters);
+Counts<double> counts_of(const sim::Problem& problem, const Lines& lines, const GridParameters& parameters,
+                         const std::stop_token& stop) {
   return index_counts(problem, lines.rays, &Counts<double>::steps, stop,
-                      [&](const auto& visit) { return inspect_grid(problem, own, {}, visit, stop); });
+                      [&](const auto& visit) { return inspect_grid(problem, parameters, {}, visit, stop); });
 }
 
-Counts<double> structural_bsp(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
-                              const std::stop_token& stop) {
-  const auto& own = std::get<BspParameters>(parameters);
+Counts<double> counts_of(const sim::Problem& problem, const Lines& lines, const BspParameters& parameters,
+                         const std::stop_token& stop) {
   return index_counts(problem, lines.rays, &Counts<double>::nodes, stop,
-                      [&](const auto& visit) { return inspect_bsp(problem, own, visit, stop); });
+                      [&](const auto& visit) { return inspect_bsp(problem, parameters, visit, stop); });
 }
 
 }  // namespace detp::validate

@@ -1,4 +1,4 @@
-#include "structural_walk.hpp"
+#include "structural_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/lebesgue.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "structural_registry.hpp"
 
 namespace detp::validate {
 namespace {
@@ -117,14 +116,13 @@ ExpectedWalk structural_walk(std::span<const sim::Disc> discs, const sim::Sphere
   return std::move(walk).finish();
 }
 
-Counts<double> structural_sphere_cache(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
-                                       const std::stop_token& stop) {
-  const auto& own = std::get<SphereCacheParameters>(parameters);
-  if (own.order != SampleOrder::lebesgue)
+Counts<double> counts_of(const sim::Problem& problem, const Lines& lines, const SphereCacheParameters& parameters,
+                         const std::stop_token& stop) {
+  if (parameters.order != SampleOrder::lebesgue)
     throw std::invalid_argument(
         fmt::format("the sphere cache has structural counts along the Morton (lebesgue) curve only (got order {})",
-                    name(own.order)));
-  const ExpectedWalk walk = structural_walk(problem.discs(), problem.enclosing(), own, stop);
+                    name(parameters.order)));
+  const ExpectedWalk walk = structural_walk(problem.discs(), problem.enclosing(), parameters, stop);
   const auto discs = static_cast<double>(problem.discs().size());
   const double blocks = lines.blocks(problem).count();
   Counts<double> counts{.cull_tests = lines.rays * walk.cull_tests,

@@ -1,4 +1,4 @@
-#include "detp/validate/choice/closed_forms.hpp"
+#include "detp/validate/choice/comparison.hpp"
 
 #include <doctest/doctest.h>
 

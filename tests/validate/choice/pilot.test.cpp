@@ -13,7 +13,7 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
-#include "detp/validate/choice/box_tree_guess.hpp"
+#include "detp/validate/choice/pilot.hpp"
 
 using namespace detp;
 using doctest::Approx;

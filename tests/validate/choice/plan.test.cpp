@@ -11,7 +11,7 @@
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/choice/closed_forms.hpp"
+#include "detp/validate/choice/comparison.hpp"
 
 using namespace detp;
 using doctest::Approx;

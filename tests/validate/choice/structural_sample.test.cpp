@@ -1,4 +1,4 @@
-#include "detp/validate/choice/structural_sample.hpp"
+#include "detp/validate/choice/pilot.hpp"
 
 #include <doctest/doctest.h>
 

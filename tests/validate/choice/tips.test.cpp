@@ -20,7 +20,9 @@ ChoiceThere grid_on(int threads) {
 }
 
 /// The same technique for all inputs, on up to 4 threads.
-ChoiceThere grid_for(const TipInputs& inputs) { return grid_on(std::min(4, inputs.threads)); }
+int threads_of(const TipInputs& inputs) { return static_cast<int>(inputs.threads); }
+
+ChoiceThere grid_for(const TipInputs& inputs) { return grid_on(std::min(4, threads_of(inputs))); }
 
 /// The only tip.
 Tip only_tip(const ChooseForInputs& choose) {
@@ -83,13 +85,13 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("other numbers of threads are a tip, unless only the cap is lower") {
     CHECK(find_tips(present, search, [](const TipInputs& inputs) { return grid_for(inputs); }).tips.empty());
-    const auto more = only_tip([](const TipInputs& inputs) { return grid_on(inputs.threads); });
+    const auto more = only_tip([](const TipInputs& inputs) { return grid_on(threads_of(inputs)); });
     CHECK(more.input == TipInput::threads);
     CHECK(more.kind == TipKind::threads);
     CHECK(more.at == 8);
     CHECK(more.threads == 8);
-    const auto fewer =
-        only_tip([](const TipInputs& inputs) { return grid_on(inputs.rays < 300 ? 1 : std::min(4, inputs.threads)); });
+    const auto fewer = only_tip(
+        [](const TipInputs& inputs) { return grid_on(inputs.rays < 300 ? 1 : std::min(4, threads_of(inputs))); });
     CHECK(fewer.input == TipInput::rays);
     CHECK(fewer.threads == 1);
     CHECK(fewer.at < 300);

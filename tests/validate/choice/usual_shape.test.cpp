@@ -1,4 +1,4 @@
-#include "detp/validate/choice/box_tree_guess.hpp"
+#include "detp/validate/choice/pilot.hpp"
 
 #include <doctest/doctest.h>
 

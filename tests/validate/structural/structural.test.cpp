@@ -50,6 +50,19 @@ TEST_SUITE("identity") {
     }
   }
 
+  TEST_CASE("every technique has counts, or the reason why there are none") {
+    const auto discs = sim::uniform_discs(sim::Body::cube, 2, 100, 0.05, 3);
+    for (const Technique technique : all_techniques) {
+      CAPTURE(name(technique));
+      try {
+        const Counts<double> counts = structural_counts(discs, 100, default_candidate(technique));
+        CHECK(counts.hits > 0);
+      } catch (const std::invalid_argument& error) {
+        CHECK(std::string(error.what()).find(" has no structural counts: it") != std::string::npos);
+      }
+    }
+  }
+
   TEST_CASE("brute force tests every disc with every ray; a disc is hit by d²/(2 r0²) of them") {
     const auto discs = sim::uniform_discs(sim::Body::cube, 2, 500, 0.05, 3);
     const double outer = sim::enclosing_sphere(discs).radius;

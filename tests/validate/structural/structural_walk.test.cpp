@@ -1,4 +1,4 @@
-#include "detp/validate/structural/structural_walk.hpp"
+#include "detp/validate/structural/structural_parts.hpp"
 
 #include <doctest/doctest.h>
 
