@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,6 +46,15 @@ struct Field {
     field.in_json = false;
     return field;
   }
+  /// Left out, instead of null, where the answer has no value.
+  [[nodiscard]] Field where_known() const {
+    Field field = *this;
+    field.value = [of = value](const Answer& answer) {
+      Json one = of(answer);
+      return one.is_null() ? left_out() : one;
+    };
+    return field;
+  }
   /// An interval [low, high], as "noise_low" and "noise_high".
   [[nodiscard]] Field as_interval(const std::string& of) const {
     return in({{of + "_low", "/0"}, {of + "_high", "/1"}});
@@ -84,6 +94,15 @@ template <class Answer, class Part, class PartOf>
     field.in_json = one.in_json;
     all.push_back(std::move(field));
   }
+  return all;
+}
+
+/// Fields of a part that the answer may not have: all are then left out.
+template <class Answer, class Part>
+[[nodiscard]] Fields<Answer> fields_of_optional(const Fields<Part>& fields, std::optional<Part> Answer::*part) {
+  Fields<Answer> all = fields_of_part<Answer>(fields, [part](const Answer& answer) { return *(answer.*part); });
+  for (Field<Answer>& field : all)
+    field.value = [of = field.value, part](const Answer& answer) { return answer.*part ? of(answer) : left_out(); };
   return all;
 }
 

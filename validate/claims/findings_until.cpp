@@ -10,14 +10,15 @@
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
-#include "shared_findings.hpp"
+#include "detp/validate/checkpoint/checkpoint_file.hpp"
+#include "detp/validate/job/job.hpp"
 
 namespace detp::validate {
 
 namespace {
 
-constexpr double most_growth = 8;
-constexpr double safety = 1.05;
+constexpr double stage_growth = 8;
+constexpr double stage_safety = 1.05;
 
 /// One experiment, and the sums over its repetitions.
 class Repeated {
@@ -100,24 +101,50 @@ class Repeated {
   double seconds_ = 0;
 };
 
+/// All that decides what is found.
+nlohmann::json checkpoint_key(const Experiment& experiment, const FindingsTarget& target,
+                              std::span<const ExperimentStep> steps) {
+  Digest digest;
+  const Workload& workload = experiment.workload;
+  for (const double value : {workload.rays, workload.samples, workload.disc_radius, workload.sphere_radius,
+                             workload.dimension, workload.path_length, workload.ray_density, workload.hit_ratio})
+    digest.add(value);
+  for (const double side : workload.box) digest.add(side);
+  for (const double ratio : experiment.ratios) digest.add(ratio);
+  add(experiment.discs, digest);
+  if (experiment.choice) add(experiment.choice->rays, digest);
+  std::string experiments;
+  for (const ExperimentStep& step : steps) experiments += fmt::format(" {}", step.key);
+  return {{"seed", experiment.seed},
+          {"relative error", target.relative_error},
+          {"confidence", target.confidence},
+          {"least lines", target.least_lines},
+          {"most lines", target.most_lines},
+          {"experiments", experiments},
+          {"digest of workload, ratios, discs and rays", digest.text()}};
+}
+
 class Findings {
  public:
-  Findings(const Experiment& experiment, const FindingsTarget& target, const sim::ReportPhase& progress,
-           CheckpointFile* checkpoint, std::span<const ExperimentStep> steps)
-      : experiment_(experiment),
-        target_(target),
-        progress_(progress),
-        checkpoint_(checkpoint),
-        steps_(steps),
-        shared_(experiment, steps) {
+  Findings(const Experiment& experiment, const FindingsTarget& target, std::span<const ExperimentStep> steps,
+           const sim::ReportPhase& progress)
+      : experiment_(experiment), target_(target), steps_(steps), progress_(progress), shared_(experiment, steps) {
     for (const ExperimentStep& step : steps) experiments_.emplace_back(step.draws);
   }
 
-  void go_on_from(const nlohmann::json& saved) {
-    for (std::size_t i = 0; i < experiments_.size(); ++i) experiments_[i].set_state(saved.at(i));
+  /// From now on the state is written to the file, and if `resume`, goes on from what the file has.
+  void keep_in(const std::filesystem::path& path, bool resume) {
+    checkpoint_.emplace(path, "validate --until-relative-error", checkpoint_key(experiment_, target_, steps_));
+    const auto saved = resume ? checkpoint_->read(experiment_.stop) : std::nullopt;
+    if (!saved || saved->is_null()) return;
+    try {
+      for (std::size_t i = 0; i < experiments_.size(); ++i) experiments_[i].set_state(saved->at(i));
+    } catch (const nlohmann::json::exception& error) {
+      throw checkpoint_->damaged(error.what());
+    }
   }
 
-  FindingsUntil run() && {
+  FindingsUntil run() {
     FindingsUntil result;
     try {
       begin();
@@ -129,7 +156,7 @@ class Findings {
     for (const Repeated& one : experiments_)
       for (std::size_t i = 0; i < one.size(); ++i) {
         result.findings.push_back(one.finding(i));
-        result.refinements.push_back(refinement(one, i));
+        result.findings.back().refinement = refinement(one, i);
       }
     return result;
   }
@@ -141,23 +168,26 @@ class Findings {
     if (progress_) progress_({what, share, 1, 0, seconds});
   }
 
+  /// Of the finding's interval, at the experiment's next test.
+  [[nodiscard]] double relative_error(const Repeated& one, std::size_t i) const {
+    return one.relative_error(i, error_of_test(target_.confidence, one.plan.test), findings());
+  }
+
   [[nodiscard]] std::size_t findings() const {
     std::size_t count = 0;
     for (const Repeated& one : experiments_) count += one.size();
     return count;
   }
 
-  [[nodiscard]] double allowed(int test) const { return error_of_test(target_.confidence, test); }
-
   /// Number of repetitions that the experiment needs in all, by what is known; within its limits of lines.
   [[nodiscard]] double needed(const Repeated& one) const {
     double most = 1;
     for (std::size_t i = 0; i < one.size(); ++i) {
       if (!one.grows(i)) continue;
-      const double error = one.relative_error(i, allowed(one.plan.test), findings());
+      const double error = relative_error(one, i);
       const double lines_of_one = static_cast<double>(one.finding(i).lines) / one.repetitions();
       const double by_error = std::isfinite(error)
-                                  ? safety * one.repetitions() * std::pow(error / target_.relative_error, 2)
+                                  ? stage_safety * one.repetitions() * std::pow(error / target_.relative_error, 2)
                                   : std::numeric_limits<double>::infinity();
       const double limit = std::max(1.0, std::floor(target_.most_lines / lines_of_one));
       most = std::max(most, std::min(limit, std::max(by_error, std::ceil(target_.least_lines / lines_of_one))));
@@ -167,8 +197,7 @@ class Findings {
 
   [[nodiscard]] bool reached(const Repeated& one) const {
     for (std::size_t i = 0; i < one.size(); ++i)
-      if (one.grows(i) && one.relative_error(i, allowed(one.plan.test), findings()) > target_.relative_error)
-        return false;
+      if (one.grows(i) && relative_error(one, i) > target_.relative_error) return false;
     return true;
   }
 
@@ -193,11 +222,11 @@ class Findings {
   void add_all(const std::vector<Repetition>& repetitions, const std::vector<double>& costs = {}) {
     std::vector<FoundOnce> found = shared_.find(repetitions, costs);
     for (std::size_t i = 0; i < found.size(); ++i) experiments_[repetitions[i].step].add(std::move(found[i]));
-    if (checkpoint_ != nullptr && checkpoint_->due()) save();
+    if (checkpoint_ && checkpoint_->due()) save();
   }
 
-  void save() const {
-    if (checkpoint_ == nullptr) return;
+  void save() {
+    if (!checkpoint_) return;
     nlohmann::json state = nlohmann::json::array();
     for (const Repeated& one : experiments_) state.push_back(one.state());
     checkpoint_->write(state);
@@ -209,7 +238,7 @@ class Findings {
     while (!plan.finished) {
       if (plan.stage_end == 0) {
         const double wanted = std::ceil(needed(one));
-        plan.stage_end = std::min(wanted, most_growth * one.repetitions());
+        plan.stage_end = std::min(wanted, stage_growth * one.repetitions());
         plan.stage_is_test = plan.stage_end == wanted;
         plan.finished = wanted <= one.repetitions();
       }
@@ -232,13 +261,14 @@ class Findings {
   }
 
   [[nodiscard]] Refinement refinement(const Repeated& one, std::size_t i) const {
-    Refinement found{.relative_error = one.relative_error(i, allowed(one.plan.test), findings())};
+    Refinement found{.relative_error = relative_error(one, i)};
     found.reached = found.relative_error <= target_.relative_error;
     if (found.reached || !one.grows(i)) return found;
     const Finding mean = one.finding(i);
     if (mean.observed.mean == 0)
       found.share_bound =
-          -std::log(allowed(one.plan.test) / static_cast<double>(findings())) / static_cast<double>(mean.lines);
+          -std::log(error_of_test(target_.confidence, one.plan.test) / static_cast<double>(findings())) /
+          static_cast<double>(mean.lines);
     const double times = std::pow(found.relative_error / target_.relative_error, 2) - 1;
     found.more_lines = times * static_cast<double>(mean.lines);
     found.more_seconds = times * one.repetitions() * one.seconds_of_one();
@@ -247,9 +277,9 @@ class Findings {
 
   const Experiment& experiment_;
   const FindingsTarget& target_;
-  const sim::ReportPhase& progress_;
-  CheckpointFile* checkpoint_;
   std::span<const ExperimentStep> steps_;
+  const sim::ReportPhase& progress_;
+  std::optional<CheckpointFile> checkpoint_;
   SharedFindings shared_;
   std::vector<Repeated> experiments_;
 };
@@ -266,17 +296,14 @@ void check(const FindingsTarget& target) {
 }
 
 FindingsUntil findings_until(const Experiment& experiment, const FindingsTarget& target,
-                             const sim::ReportPhase& progress, CheckpointFile* checkpoint, const nlohmann::json& saved,
-                             std::span<const ExperimentStep> steps) {
+                             std::span<const ExperimentStep> steps,
+                             const std::optional<std::filesystem::path>& checkpoint, bool resume,
+                             const sim::ReportPhase& progress) {
   const sim::DefaultFloatingPoint mode;
   check(target);
-  Findings findings(experiment, target, progress, checkpoint, steps);
-  try {
-    if (!saved.is_null()) findings.go_on_from(saved);
-  } catch (const nlohmann::json::exception& error) {
-    throw checkpoint->damaged(error.what());
-  }
-  return std::move(findings).run();
+  Findings findings(experiment, target, steps, progress);
+  if (checkpoint) findings.keep_in(*checkpoint, resume);
+  return findings.run();
 }
 
 }  // namespace detp::validate

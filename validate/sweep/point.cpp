@@ -1,4 +1,4 @@
-#include "point.hpp"
+#include "sweep.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 namespace detp::validate {
 namespace {
 
-constexpr double side = 2;
+constexpr double cube_side = 2;
 constexpr std::array disc_shares{1e-4, 1e-3, 1e-2, 0.05, 0.2};
 constexpr std::array ratios{0.3, 0.5, 0.65, 0.8, 0.9};
 
@@ -69,7 +69,7 @@ std::vector<Candidate> hierarchies(const SweepPoint& point) {
 
 /// A box tree for each leaf size, with one of the fan-outs. The fan-out of a leaf size changes from point to point, so
 /// that the points together cover all pairs of fan-out and leaf size.
-std::vector<Candidate> box_trees(const SweepPoint& point) {
+std::vector<Candidate> sweep_box_trees(const SweepPoint& point) {
   constexpr std::array fan_outs{2, 4, 8, 16};
   constexpr std::array leaves{1, 4, 16, 64, 256};
   const double place = std::log10(point.samples) - 2 * std::log10(point.disc_share) + point.dimension;
@@ -82,15 +82,15 @@ std::vector<Candidate> box_trees(const SweepPoint& point) {
 
 }  // namespace
 
-double SweepPoint::disc_radius() const { return disc_share / (1 - disc_share) * std::sqrt(3.0) / 2 * side; }
+double SweepPoint::disc_radius() const { return disc_share / (1 - disc_share) * std::sqrt(3.0) / 2 * cube_side; }
 
 Workload SweepPoint::workload() const {
-  return cube_workload(static_cast<double>(lines), samples, disc_radius(), side, dimension);
+  return cube_workload(static_cast<double>(lines), samples, disc_radius(), cube_side, dimension);
 }
 
 std::vector<sim::Disc> SweepPoint::discs(std::uint64_t seed, int set, const std::stop_token& stop) const {
   const auto body = dimension == 2 ? sim::Body::cube_faces : sim::Body::cube;
-  return sim::uniform_discs(body, side, static_cast<std::size_t>(samples), disc_radius(),
+  return sim::uniform_discs(body, cube_side, static_cast<std::size_t>(samples), disc_radius(),
                             seed * 1000003 + static_cast<std::uint64_t>(set), stop);
 }
 
@@ -107,7 +107,7 @@ std::vector<SweepPoint> sweep_points() {
 
 std::vector<Candidate> sweep_candidates(const SweepPoint& point) {
   std::vector<Candidate> candidates = caches(point);
-  for (const auto& others : {indices(point), hierarchies(point), box_trees(point)})
+  for (const auto& others : {indices(point), hierarchies(point), sweep_box_trees(point)})
     candidates.insert(candidates.end(), others.begin(), others.end());
   std::erase_if(candidates, [&](const Candidate& candidate) {
     const Counts<double> counts = model::predict(point.workload(), candidate, Engine::plain);

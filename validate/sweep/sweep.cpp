@@ -12,13 +12,12 @@
 #include "detp/validate/base/digest.hpp"
 #include "detp/validate/base/search_work.hpp"
 #include "detp/validate/checkpoint/value_json.hpp"
-#include "deviation.hpp"
 
 namespace detp::validate {
 namespace {
 
 /// Of the points, of their numbers of sets and lines, and of the value of every formula on them.
-std::string digest_of(std::span<const SweepPoint> points) {
+std::string digest_of_points(std::span<const SweepPoint> points) {
   Digest digest;
   for (const SweepPoint& point : points) {
     for (const double part :
@@ -39,28 +38,23 @@ double predicted_work(const SweepPoint& point) {
   return work * point.sets;
 }
 
-/// The checkpoint is read from its file if the sweep is resumed.
-std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, const SweepOptions& options,
-                                        std::stop_token stop) {
+std::optional<CheckpointFile> checkpoint_of(std::span<const SweepPoint> points, const SweepOptions& options) {
   if (!options.checkpoint) return std::nullopt;
-  Checkpoint checkpoint(*options.checkpoint, options.seed, digest_of(points));
-  if (options.resume) checkpoint.read(std::move(stop));
-  return checkpoint;
+  return CheckpointFile(*options.checkpoint, "validate --effort thorough",
+                        {{"seed", options.seed}, {"digest of formulas and workloads", digest_of_points(points)}});
 }
 
 class MeasurementCollector {
  public:
   MeasurementCollector(std::span<const SweepPoint> points, const SweepOptions& options)
-      : points_(points), options_(options), checkpoint_(checkpoint_of(points, options, {})) {
-    double work = 0;
-    for (const SweepPoint& point : points) {
-      if (checkpoint_ && checkpoint_->points().contains(point.name()))
-        measured_[point.name()] = checkpoint_->points().at(point.name());
-      else if (options.progress)
-        work += predicted_work(point);
-    }
+      : points_(points), options_(options), checkpoint_(checkpoint_of(points, options)) {
+    if (checkpoint_ && options.resume) measured_ = read_points(*checkpoint_);
     resumed_ = measured_.size();
-    if (options.progress) options.progress({fmt::format("{} workloads", points.size() - resumed_), 0, 1, work});
+    if (!options.progress) return;
+    double work = 0;
+    for (const SweepPoint& point : points)
+      if (!measured_.contains(point.name())) work += predicted_work(point);
+    options.progress({fmt::format("{} workloads", points.size() - resumed_), 0, 1, work});
   }
 
   /// The next point to measure, in their order; null if none is left or a stop was requested.
@@ -72,8 +66,8 @@ class MeasurementCollector {
 
   void add(const SweepPoint& point, std::vector<Deviation> deviations) {
     const std::scoped_lock lock(mutex_);
-    if (checkpoint_) checkpoint_->add(point.name(), deviations);
     measured_[point.name()] = std::move(deviations);
+    if (checkpoint_) write_points(*checkpoint_, measured_);
   }
 
   [[nodiscard]] SweepResult finish() && {
@@ -86,9 +80,9 @@ class MeasurementCollector {
  private:
   std::span<const SweepPoint> points_;
   const SweepOptions& options_;
-  std::optional<Checkpoint> checkpoint_;
+  std::optional<CheckpointFile> checkpoint_;
   std::mutex mutex_;
-  std::map<std::string, std::vector<Deviation>> measured_;
+  MeasuredPoints measured_;
   std::size_t next_ = 0;
   std::size_t resumed_ = 0;
 };
@@ -98,27 +92,20 @@ class MeasurementCollector {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Deviation, dimension, samples, disc_share, technique, parameters, quantity, sphere,
                                    form, predicted, observed)
 
-Checkpoint::Checkpoint(std::filesystem::path path, std::uint64_t seed, const std::string& formulas)
-    : file_(std::move(path), "validate --effort thorough",
-            {{"seed", seed}, {"digest of formulas and workloads", formulas}}) {}
-
-void Checkpoint::read(std::stop_token stop) {
-  const auto state = file_.read(std::move(stop));
-  if (!state) return;
+MeasuredPoints read_points(const CheckpointFile& file, std::stop_token stop) {
+  const auto state = file.read(std::move(stop));
   try {
-    state->get_to(points_);
+    return state ? state->get<MeasuredPoints>() : MeasuredPoints{};
   } catch (const nlohmann::json::exception& error) {
-    throw file_.damaged(error.what());
+    throw file.damaged(error.what());
   }
 }
 
-void Checkpoint::add(const std::string& point, const std::vector<Deviation>& deviations) {
-  points_[point] = deviations;
-  file_.write(points_);
-}
+void write_points(CheckpointFile& file, const MeasuredPoints& points) { file.write(points); }
 
 void check_checkpoint(std::span<const SweepPoint> points, const SweepOptions& options) {
-  (void)checkpoint_of(points, options, options.stop);
+  if (const auto file = checkpoint_of(points, options); file && options.resume)
+    static_cast<void>(read_points(*file, options.stop));
 }
 
 SweepResult run_sweep(std::span<const SweepPoint> points, const SweepOptions& options) {

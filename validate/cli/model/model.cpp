@@ -1,20 +1,15 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <map>
-#include <stdexcept>
+#include <memory>
 
-#include "detp/model/rank/extrapolation.hpp"
-#include "detp/model/rank/registry.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
 #include "detp/validate/cli/options/cost_options.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/report/answer_rows.hpp"
-#include "detp/validate/cli/report/prediction_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/words.hpp"
-#include "model_answer.hpp"
+#include "model_text.hpp"
 
 namespace detp::cli {
 namespace {
@@ -25,150 +20,33 @@ struct ModelOptions {
   std::string form = "corrected";
   std::string costs;
   std::optional<std::int64_t> levels;
+  std::optional<double> curvature;
+  std::optional<double> target_error;
   bool verbose = false;
-  OutlookOptions outlook;
 };
 
-using Answer = ModelAnswer(const ModelQuestion& question);
-
-const std::map<Technique, Answer*>& answers() {
-  static const std::map<Technique, Answer*> all{{Technique::sphere_cache, sphere_cache_answer},
-                                                {Technique::sphere_cache_published, sphere_cache_answer},
-                                                {Technique::cell_spheres, cell_spheres_answer},
-                                                {Technique::sphere_tree, sphere_tree_answer},
-                                                {Technique::octree, octree_answer},
-                                                {Technique::grid, grid_answer}};
-  return all;
-}
-
-ModelAnswer answer(const ModelQuestion& question) {
-  if (!model::has_closed_form(question.technique))
-    throw std::invalid_argument(fmt::format("there is no closed form of {}; try: detp run --technique {}",
-                                            name(question.technique), name(question.technique)));
-  const auto found = answers().find(question.technique);
-  return found == answers().end() ? technique_answer(question) : found->second(question);
-}
-
-std::string level_table(const Json& levels) {
-  if (levels.empty()) return {};
-  std::string text = "\n";
-  for (const auto& [key, value] : levels[0].items()) text += fmt::format("{}{:>13}", text == "\n" ? "" : " ", key);
-  for (const Json& level : levels) {
-    std::string line;
-    for (const auto& [key, value] : level.items())
-      line += fmt::format("{}{:>13.6g}", line.empty() ? "" : " ", value.get<double>());
-    text += "\n" + line;
-  }
-  return text + "\n";
-}
-
-std::string scalars(const Json& json, const std::string& pattern_prefix = "") {
-  std::string text;
-  for (const auto& [key, value] : json.items()) {
-    if (value.is_array() || value.is_boolean()) continue;
-    if (value.is_object())
-      text += scalars(value, key + ".");
-    else if (value.is_number())
-      text += fmt::format("{:<26} {:.8g}\n", pattern_prefix + key, value.get<double>());
-    else
-      text += fmt::format("{:<26} {}\n", pattern_prefix + key, value.get<std::string>());
-  }
-  return text;
-}
-
-std::string notes_text(const Json& json, const Screen& screen) {
-  const Json notes = json.value("notes", Json::array());
-  std::string text = notes.empty() ? "" : "\n";
-  for (const Json& note : notes) text += legend(screen, note.get<std::string>());
-  return text;
-}
-
-std::string why_extrapolated(const Json& json) {
-  std::string text;
-  for (const Json& reason : json.value("extrapolated_because", Json::array()))
-    text += (text.empty() ? "caution   outside of what was compared with counts: " : "; ") + reason.get<std::string>();
-  return text.empty() ? text : text + "\n";
-}
-
-/// Results of --curvature and --target-error, a line each.
-std::string errors_text(const Json& json) {
-  std::string text;
-  for (const std::string& key : error_columns())
-    if (json.contains(key)) text += fmt::format("{:<26} {:.8g}\n", key, json[key].get<double>());
-  return text;
-}
-
-struct Sentences {
-  std::string answer;
-  std::string command;  ///< one line, whatever the width
-};
-
-/// Sentences, or with --verbose the whole record.
-std::string text_of(const Json& json, const Sentences& sentences, const ModelOptions& options, const Screen& screen) {
-  std::string text;
-  for (const std::string& part : {sentences.answer, why_extrapolated(json)})
-    if (!part.empty()) text += wrapped(std::string_view(part).substr(0, part.size() - 1), screen.text_width(), 10);
-  text += sentences.command;
-  if (options.verbose) return text + "\n" + scalars(json) + level_table(json.value("spheres", Json::array()));
-  return text + (options.outlook.given() ? errors_text(json) : "");
-}
-
-const Columns& times() {
-  static const Columns columns{"rebuild_time", "intersect_time", "copy_time",  "order_time",
-                               "build_time",   "traverse_time",  "total_time", "rebuild_time_few_samples",
-                               "balanced_time"};
+const Columns& unit_cost_columns() {
+  static const Columns columns = [] {
+    Columns all;
+    const Json costs = to_json(UnitCosts{});
+    for (const auto& [name, cost] : costs.items()) all.push_back("cost_" + name);
+    return all;
+  }();
   return columns;
 }
 
-const Columns& per_line() {
-  static const Columns columns{"cells_per_line", "discs_per_cell", "tests_per_line", "cells_per_disc", "index_bytes"};
-  return columns;
+Columns table_columns() {
+  const auto [stops, times, index, errors, outlook, spheres] = validate::model_columns();
+  return workload_columns() + candidate_columns() + Columns{"curvature", "target_error", "form"} + stops + times +
+         index + outlook + count_columns() + unit_cost_columns() + spheres;
 }
 
-const Columns& of_one_sphere() {
-  static const Columns columns{"i", "radius_i", "rays_i", "listed_i", "rebuilds_i", "rebuild_cost_i", "samples_i"};
-  return columns;
-}
-
-/// Of a sphere cache.
-const Columns& stop_columns() {
-  static const Columns columns{"k", "k_max", "k_best", "k_published", "k_corrected", "extrapolated"};
-  return columns;
-}
-
-Columns unit_cost_columns() {
-  Columns columns;
-  const Json costs = to_json(UnitCosts{});
-  for (const auto& [name, cost] : costs.items()) columns.push_back("cost_" + name);
-  return columns;
-}
-
-Columns columns() {
-  return workload_columns() + candidate_columns() + Columns{"curvature", "target_error", "form"} + stop_columns() +
-         times() + per_line() + outlook_columns() + count_columns() + unit_cost_columns() + of_one_sphere();
-}
-
-std::vector<Json> cells_of(const Json& inputs, const Candidate& candidate, const Json& json) {
-  Json shared = workload_cells(inputs);
-  shared.update(candidate_cells(candidate));
-  for (const auto& [name, value] : json.items())
-    if (!value.is_structured()) shared[name] = value;
-  for (const char* input : {"curvature", "target_error"})
-    if (inputs.contains(input)) shared[input] = inputs[input];
-  if (json.contains("counts")) shared.update(count_cells(json["counts"]));
-  for (const auto& [name, cost] : inputs["unit_costs"].items()) shared["cost_" + name] = cost;
-  std::vector<Json> rows;
-  for (const Json& sphere : json.value("spheres", Json::array())) {
-    Json& row = rows.emplace_back(shared);
-    for (const auto& [name, value] : sphere.items()) row[name == "i" ? name : name + "_i"] = value;
-  }
-  if (rows.empty()) rows.push_back(std::move(shared));
-  return rows;
-}
-
-void require_finite_time(const Json& json) {
-  if (!std::isfinite(json["total_time"].get<double>()))
-    throw std::invalid_argument("with these unit costs the time exceeds 1.8e308; give smaller costs");
+/// What is shown of several rows.
+TextColumns text_columns(const ModelOptions& options, const Screen& screen) {
+  const auto [stops, times, index, errors, outlook, spheres] = validate::model_columns();
+  const bool with_errors = options.curvature || options.target_error;
+  return {workload_columns() + candidate_columns() + Columns{"form", "curvature", "target_error"},
+          stops + (with_errors ? errors : Columns{}) + times + index, screen};
 }
 
 /// The data that the rows of one workload share.
@@ -195,27 +73,37 @@ Measured measure(const ModelOptions& options, const CommonOptions& common, const
           scene_alone ? fmt::format("{} --disc-radius {:.6g}", shell_word(*request.scene), job.given.disc_radius) : ""};
 }
 
-AnswerRow answer_row(const ModelOptions& options, const Measured& measured, const UnitCosts& costs, std::int64_t levels,
-                     Sentences& sentences) {
+validate::ModelRequest model_request(const ModelOptions& options, const Workload& workload, std::int64_t levels) {
   const Technique technique = options.candidate.technique_or(Technique::sphere_cache);
-  (void)options.candidate.fixed_parameters(technique);  // throws for parameters of other techniques
-  const Form form = choice_named<Form>(options.form).value();
-  AnswerRow row{measured.inputs, {{"technique", name(technique)}}, {}};
-  row.inputs["form"] = options.form;
-  row.inputs["engine"] = name(options.candidate.engine);
-  row.inputs["unit_costs"] = to_json(costs);
-  row.inputs["levels"] = levels;
-  if (options.outlook.curvature) row.inputs["curvature"] = *options.outlook.curvature;
-  if (options.outlook.target_error) row.inputs["target_error"] = *options.outlook.target_error;
-  const ModelQuestion question{measured.workload, technique, form, costs, levels, options.candidate};
-  ModelAnswer found = answer(question);
-  row.answer.update(found.json);
-  row.answer.update(outlook(question, found.parameters, options.outlook));
-  row.answer.update(extrapolated_json(model::extrapolations(measured.workload, {technique, found.parameters})));
-  require_finite_time(row.answer);
-  sentences = {model_sentences(question, found, !options.costs.empty()),
-               measured.options.empty() ? "" : counting_command(question, found, measured.options)};
-  row.cells = cells_of(row.inputs, {technique, found.parameters}, row.answer);
+  return {.workload = workload,
+          .technique = technique,
+          .parameters = options.candidate.fixed_parameters(technique),
+          .fastest_stop = options.candidate.stop == SphereStop::best,
+          .form = choice_named<Form>(options.form).value(),
+          .costs = parse_unit_costs(options.costs).value_or(UnitCosts{}),
+          .engine = options.candidate.engine,
+          .levels = levels,
+          .curvature = options.curvature,
+          .target_error = options.target_error};
+}
+
+AnswerRow model_row(const validate::ModelRequest& request, const validate::ModelAnswer& answer, const Json& inputs) {
+  AnswerRow row{inputs, {{"technique", name(request.technique)}}, {}};
+  row.inputs["form"] = name(request.form);
+  row.inputs["engine"] = name(request.engine);
+  row.inputs["unit_costs"] = to_json(request.costs);
+  row.inputs["levels"] = request.levels;
+  if (request.curvature) row.inputs["curvature"] = *request.curvature;
+  if (request.target_error) row.inputs["target_error"] = *request.target_error;
+  row.answer.update(json_of(answer));
+  Json shared = workload_cells(row.inputs);
+  for (const char* input : {"curvature", "target_error"})
+    if (row.inputs.contains(input)) shared[input] = row.inputs[input];
+  for (const auto& [name, cost] : row.inputs["unit_costs"].items()) shared["cost_" + name] = cost;
+  for (const Json& cells : cells_of(answer)) {
+    row.cells.push_back(shared);
+    row.cells.back().update(cells);
+  }
   return row;
 }
 
@@ -223,18 +111,25 @@ Result run_model(ModelOptions& options, const CommonOptions& common, const std::
   const std::size_t expected = rows_in(options.workload.lists, options.candidate.lists);
   const std::int64_t levels = options.levels.value_or(expected == 1 ? 64 : 0);
   require_count("--levels", static_cast<double>(levels), 0, 1e6);
-  const UnitCosts costs = parse_unit_costs(options.costs).value_or(UnitCosts{});
-  Sentences sentences;
+  static_cast<void>(parse_unit_costs(options.costs));  // bad costs are refused before a scene is read
+  std::string text;
+  std::vector<std::string> notes;  // of the first row
+  const auto answer_row = [&](const Measured& measured) {
+    const validate::ModelRequest request = model_request(options, measured.workload, levels);
+    const validate::ModelAnswer answer = validate::answer(request);
+    if (text.empty()) {
+      notes = answer.outlook.notes;
+      text = text_of(request, answer, {!options.costs.empty(), options.verbose, measured.options}, common.screen());
+    }
+    return model_row(request, answer, measured.inputs);
+  };
   const auto rows = answer_all(
       options.workload.lists, options.candidate.lists, stop, [&] { return measure(options, common, stop); },
-      [&](const Measured& measured) { return answer_row(options, measured, costs, levels, sentences); });
-  Result result =
-      result_of(rows, expected, columns(),
-                {workload_columns() + candidate_columns() + Columns{"form", "curvature", "target_error"},
-                 stop_columns() + (options.outlook.given() ? error_columns() : Columns{}) + times() + per_line(),
-                 common.screen()});
-  if (expected == 1) result.text = text_of(result.json, sentences, options, common.screen());
-  result.text += notes_text(rows.front().answer, common.screen());
+      answer_row);
+  Result result = result_of(rows, expected, table_columns(), text_columns(options, common.screen()));
+  if (expected == 1) result.text = text;
+  if (!notes.empty()) result.text += "\n";
+  for (const std::string& one : notes) result.text += legend(common.screen(), one);
   return result;
 }
 
@@ -254,7 +149,15 @@ Command model_command(CLI::App& program) {
                                     "published or corrected; default: corrected");
   app->add_option("--costs", options->costs, unit_cost_help() + "\ndefault: t, u, w, v, n 1, so that times are counts");
   add_number(*app, "--levels", options->levels, "how many spheres to list; default: 64, of several rows none");
-  options->outlook.add_to(*app, options->candidate.lists);
+  add_number(*app, "--curvature", options->curvature,
+             "Laplacian of the density of hits over the density, 1/length²: adds the error of discs (bias, total, best "
+             "radius) and of the nearest photons");
+  options->candidate.lists.add(
+      *app, "--target-error", Values::many, ValueLists::Kind::numbers,
+      [options = options.get()](const std::string& text) {
+        options->target_error = parse_share("--target-error", text);
+      },
+      "of the irradiance, relative, as 5% or 0.05: adds the rays that reach it");
   app->add_flag("--verbose", options->verbose,
                 "text with all that JSON has: every sphere, count and time; default: sentences");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {

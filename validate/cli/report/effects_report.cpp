@@ -34,13 +34,6 @@ double tests(const Workload& workload) {
 
 }  // namespace
 
-std::string effects_on(const std::vector<sim::EffectReport>& effects) {
-  std::string on;
-  for (const sim::EffectReport& report : effects)
-    if (report.on) on += (on.empty() ? "" : ", ") + std::string(report.effect->name);
-  return on;
-}
-
 std::string effects_line(const std::vector<sim::EffectReport>& effects) {
   std::string on;
   std::string off;
