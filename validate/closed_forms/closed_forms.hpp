@@ -123,24 +123,21 @@ struct ModelComparison {
 /// How accurate estimates are: a part of the fields of an answer.
 [[nodiscard]] const Fields<Outlook>& error_fields();
 
-/// What the lists of fields say: of an answer, and of its spheres.
+/// What the lists of fields say: of an answer, of its spheres and of the inputs.
 [[nodiscard]] std::vector<FieldText> model_fields();
+
+/// The inputs that are not of the workload.
+[[nodiscard]] Json inputs_of(const ModelRequest& request);
 
 /// In the order in which text shows it.
 [[nodiscard]] Json json_of(const ModelAnswer& answer);
 
-/// The columns of the answer, without those of the workload and the candidate.
-struct ModelColumns {
-  Columns stops;  ///< k of each kind, and whether the prediction is extrapolated
-  Columns times;
-  Columns index;
-  Columns errors;   ///< without the growth
-  Columns outlook;  ///< with it
-  Columns spheres;
-};
-[[nodiscard]] ModelColumns model_columns();
+/// The columns of a table, after those of the workload and the candidate.
+[[nodiscard]] Columns model_columns();
+/// Those that short tables show, with or without `error_fields`.
+[[nodiscard]] Columns main_model_columns(bool with_errors);
 
-/// A row for each sphere, at least one.
-[[nodiscard]] std::vector<Json> cells_of(const ModelAnswer& answer);
+/// A row for each sphere, at least one; without the cells of the workload.
+[[nodiscard]] std::vector<Json> cells_of(const ModelRequest& request, const ModelAnswer& answer);
 
 }  // namespace detp::validate

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "closed_forms.hpp"
 #include "detp/validate/answer/parts.hpp"
 
@@ -94,6 +96,37 @@ const Fields<Outlook>& growth_fields() {
   return fields;
 }
 
+/// Numbers of spheres, and whether the prediction is extrapolated.
+Columns main_stop_columns() { return columns_of(stop_fields()) + columns_of(Fields<Answer>{extrapolated_field()}); }
+
+const Fields<ModelRequest>& model_input_fields() {
+  using Input = Field<ModelRequest>;
+  static const Fields<ModelRequest> fields{
+      known_field("curvature", "1/length²", "Laplacian of the density of hits, over it", &ModelRequest::curvature),
+      known_field("target_error", "", "of the irradiance, relative", &ModelRequest::target_error),
+      Input("form", "", "published: the paper's; corrected: ours",
+            [](const ModelRequest& one) { return name(one.form); }),
+      Input("engine", "", "simd or plain", [](const ModelRequest& one) { return name(one.engine); }).in_json_alone(),
+      Input("levels", "", "at most so many spheres are listed", &ModelRequest::levels).in_json_alone()};
+  return fields;
+}
+
+const Fields<ModelRequest>& cost_fields() {
+  static const Fields<ModelRequest> fields = [] {
+    std::vector<Column> columns;
+    for (const UnitCostTerm& one : unit_cost_terms)
+      columns.push_back({fmt::format("cost_{}", one.symbol), fmt::format("/{}", one.symbol)});
+    const auto costs_json = [](const ModelRequest& request) {
+      Json costs;
+      for (const UnitCostTerm& one : unit_cost_terms) costs[std::string(one.symbol)] = request.costs.*one.cost;
+      return costs;
+    };
+    return Fields<ModelRequest>{
+        Field<ModelRequest>("unit_costs", "seconds, or 1 each", "of each operation", costs_json).in(columns)};
+  }();
+  return fields;
+}
+
 Json spheres_json(const Answer& answer) {
   if (!answer.spheres) return left_out();
   Json spheres = Json::array();
@@ -161,24 +194,36 @@ const Fields<Outlook>& error_fields() {
 
 std::vector<FieldText> model_fields() {
   std::vector<FieldText> texts = describe_fields(answer_fields());
-  for (const FieldText& one : describe_fields(level_fields())) texts.push_back(one);
+  for (const auto& more :
+       {describe_fields(level_fields()), describe_fields(model_input_fields()), describe_fields(cost_fields())})
+    texts.insert(texts.end(), more.begin(), more.end());
   return texts;
+}
+
+Json inputs_of(const ModelRequest& request) {
+  Json json = json_of(model_input_fields(), request);
+  json.update(json_of(cost_fields(), request));
+  return json;
 }
 
 Json json_of(const ModelAnswer& answer) { return json_of(answer_fields(), answer); }
 
-ModelColumns model_columns() {
-  return {.stops = columns_of(stop_fields()) + columns_of(Fields<Answer>{extrapolated_field()}),
-          .times = columns_of(time_fields()),
-          .index = columns_of(index_fields()),
-          .errors = columns_of(error_fields()),
-          .outlook = columns_of(growth_fields()) + columns_of(error_fields()),
-          .spheres = columns_of(level_fields())};
+Columns model_columns() {
+  return columns_of(model_input_fields()) + main_stop_columns() + columns_of(time_fields()) +
+         columns_of(index_fields()) + columns_of(growth_fields()) + columns_of(error_fields()) + count_columns() +
+         columns_of(cost_fields()) + columns_of(level_fields());
 }
 
-std::vector<Json> cells_of(const ModelAnswer& answer) {
+Columns main_model_columns(bool with_errors) {
+  return main_stop_columns() + (with_errors ? columns_of(error_fields()) : Columns{}) + columns_of(time_fields()) +
+         columns_of(index_fields());
+}
+
+std::vector<Json> cells_of(const ModelRequest& request, const ModelAnswer& answer) {
   Json shared = candidate_cells(answer.candidate);
-  shared.update(cells_of(answer_fields(), answer));
+  for (const Json& more :
+       {cells_of(model_input_fields(), request), cells_of(cost_fields(), request), cells_of(answer_fields(), answer)})
+    shared.update(more);
   std::vector<Json> rows;
   for (const ModelLevel& level : answer.spheres.value_or(std::vector<ModelLevel>{})) {
     rows.push_back(shared);

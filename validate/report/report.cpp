@@ -16,22 +16,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// What the forecasts need.
-struct ReportScale {
-  double triangles = 0;
-  double samples = 0;
-  double rays = 0;
-  double disc_radius = 0;
-  double reading_seconds = 0;  ///< of the scene
-  double tracing_seconds = 0;  ///< of the rays
-};
-
-ReportScale scale_of(const Json& scene) {
-  const auto of = [&](const char* key) { return number(scene, key).value_or(0); };
-  return {of("triangles"), of("samples"), of("rays"), of("disc_radius"), of("read_seconds"), of("trace_seconds")};
-}
-
-/// Seconds that a part takes: for each second of tracing and of reading, and for each 100 000 samples and triangles.
+/// Seconds that a part takes, by the answer of `scene`: for each second of tracing and of reading, and for each 100 000 samples and triangles.
 struct ForecastRule {
   double tracing = 0;
   double reading = 0;
@@ -39,17 +24,13 @@ struct ForecastRule {
   double triangles = 0;
   double fixed = 0;
 
-  [[nodiscard]] double seconds(const ReportScale& scale) const {
+  [[nodiscard]] double seconds(const Json& scene, double times_the_rays = 1) const {
     constexpr double many = 1e5;
-    return tracing * scale.tracing_seconds + reading * scale.reading_seconds + samples * scale.samples / many +
-           triangles * scale.triangles / many + fixed;
+    const auto of = [&](const char* key) { return number(scene, key).value_or(0); };
+    return tracing * (times_the_rays * of("trace_seconds")) + reading * of("read_seconds") +
+           samples * of("samples") / many + triangles * of("triangles") / many + fixed;
   }
 };
-
-Words operator+(Words left, const Words& right) {
-  left.insert(left.end(), right.begin(), right.end());
-  return left;
-}
 
 /// The options that say what the scene is.
 Words scene_words(const ReportRequest& request) {
@@ -92,7 +73,7 @@ std::string map_radii(double here, bool quick) {
 }
 
 /// The parts after `scene`, in the order of what the page can least do without.
-std::vector<ReportPart> parts_after_scene(const ReportRequest& request, const ReportScale& scale) {
+std::vector<ReportPart> parts_after_scene(const ReportRequest& request, const Json& scene) {
   // Least squares of the relative errors on 17 scenes, 100 000 rays (AMD EPYC, Zen 3, two threads). `accuracy` does not take --rays, and by
   // default it makes further pilots and runs its answer: 2.9 times as long in the geometric mean, from 1 to 12 times.
   const bool quick = request.quick;
@@ -103,27 +84,26 @@ std::vector<ReportPart> parts_after_scene(const ReportRequest& request, const Re
   const ForecastRule of_verdicts =
       quick ? ForecastRule{.tracing = 0.79, .reading = 0.62, .samples = 0.085, .triangles = 0.18}
             : ForecastRule{.tracing = 11.2, .samples = 13.4, .triangles = 2.9};
-  ReportScale usual_rays = scale;
-  usual_rays.tracing_seconds *= 1e5 / std::max(1.0, scale.rays);
+  const double usual_rays = 1e5 / std::max(1.0, number(scene, "rays").value_or(0));
   const Words target = request.target_error ? Words{"--target-error", *request.target_error}
                                             : Words{"--target-noise", request.target_noise.value_or("5%")};
   return {{.name = "choice",
            .words = Words{"choose", request.scene} + workload_words(request) + Words{"--analyze"},
-           .forecast_seconds = of_choice.seconds(scale)},
+           .forecast_seconds = of_choice.seconds(scene)},
           {.name = "accuracy",
            .words = Words{"accuracy", request.scene} + target + scene_words(request) +
                     (quick ? Words{"--effort", "quick"} : Words{}),
-           .forecast_seconds = (quick ? 1 : 2.9) * of_accuracy.seconds(usual_rays),
+           .forecast_seconds = (quick ? 1 : 2.9) * of_accuracy.seconds(scene, usual_rays),
            .may_fail = true},
           {.name = "map",
            .words = Words{"choose", request.scene, "--map", "--rays", map_rays(request.rays.value_or(1e5), quick),
-                          "--disc-radius", map_radii(scale.disc_radius, quick)} +
+                          "--disc-radius", map_radii(number(scene, "disc_radius").value_or(0), quick)} +
                     scene_words(request),
-           .forecast_seconds = of_map.seconds(scale)},
+           .forecast_seconds = of_map.seconds(scene)},
           {.name = "verdicts",
            .words = Words{"validate", request.scene} + workload_words(request) +
                     Words{"--experiments", quick ? "effects" : "choice,effects"},
-           .forecast_seconds = of_verdicts.seconds(scale)}};
+           .forecast_seconds = of_verdicts.seconds(scene)}};
 }
 
 /// Of the candidate in the list with the same technique and parameters.
@@ -220,7 +200,7 @@ class Report {
   Json make() {
     // `scene` is short, and says how long the others will take.
     if (add({.name = "scene", .words = Words{"scene", request_.scene} + workload_words(request_)})) {
-      const std::vector<ReportPart> parts = parts_after_scene(request_, scale_of(answer_of(json_, "scene")));
+      const std::vector<ReportPart> parts = parts_after_scene(request_, answer_of(json_, "scene"));
       forecast_ = clock_.seconds();
       for (const ReportPart& part : parts) forecast_ += *part.forecast_seconds;
       json_["forecast_seconds"] = forecast_;
