@@ -21,17 +21,15 @@ std::string sealed(std::string_view text) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using detp::validate::Checkpoint;
-  const detp::fuzz::Scratch file(".json");
-  const std::string& path = file.with(sealed(detp::fuzz::text_of(data, size)));
+  const detp::fuzz::Scratch scratch(".json");
+  const std::string& path = scratch.with(sealed(detp::fuzz::text_of(data, size)));
   try {
-    Checkpoint checkpoint(path, 1, "2");
-    checkpoint.read();
-    const std::size_t points = checkpoint.points().size();
-    checkpoint.add("one more", {});
-    Checkpoint again(path, 1, "2");
-    again.read();
-    if (again.points().size() < points) std::abort();
+    detp::validate::CheckpointFile file(path, "validate --effort thorough",
+                                        {{"seed", 1}, {"digest of formulas and workloads", "2"}});
+    auto points = detp::validate::read_points(file);
+    points["one more"] = {};
+    detp::validate::write_points(file, points);
+    if (detp::validate::read_points(file).size() < points.size()) std::abort();
   } catch (const detp::sim::FileError&) {
   }
   return 0;

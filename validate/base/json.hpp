@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -41,6 +42,16 @@ template <class T>
 template <class T>
 [[nodiscard]] Json json_value(const std::optional<T>& value) {
   return value ? json_value(*value) : Json();
+}
+
+/// A word of a command that an answer names, as a POSIX shell takes it: as it is, or in single quotes if a character of it could mean something
+/// else.
+[[nodiscard]] inline std::string shell_word(std::string_view word) {
+  constexpr std::string_view harmless = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./@%:,=+-";
+  if (!word.empty() && word.find_first_not_of(harmless) == std::string_view::npos) return std::string(word);
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
 }
 
 /// JSON in binary (CBOR), to be sent to another process: exact and short, and other than text it has infinite numbers.

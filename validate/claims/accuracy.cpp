@@ -3,13 +3,11 @@
 
 #include "batches.hpp"
 #include "detp/model/accuracy/scene_error.hpp"
-#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/validate/accuracy/replicates.hpp"
 #include "experiments.hpp"
-#include "smooth_bias.hpp"
 
 /// Errors over @furnace, whose irradiance E is known and even.
 namespace detp::validate {
@@ -57,13 +55,15 @@ std::vector<sim::Sample> samples_on_walls(std::size_t count, double from_u, doub
   return samples;
 }
 
-/// Of one batch.
+/// The numbers that a batch finds.
 struct Errors {
-  double disc_noise = 0;      ///< variance of discs away from edges, over E²
-  double triangle_noise = 0;  ///< the same of triangle hits
-  double edge_bias = 0;       ///< squared bias of discs near two edges, over E²
-  double clumping = 0;        ///< Σ m²/Σ m of six discs, m the pieces of a photon that cross a disc
-  double photon_power = 0;    ///< mean
+  enum : std::size_t {
+    disc_noise,      ///< variance of discs away from edges, over E²
+    triangle_noise,  ///< the same of triangle hits
+    edge_bias,       ///< squared bias of discs near two edges, over E²
+    clumping,        ///< Σ m²/Σ m of six discs, m the pieces of a photon that cross a disc
+    photon_power     ///< mean
+  };
 };
 
 using Runs = std::vector<std::vector<double>>;
@@ -120,40 +120,24 @@ double clumping_of(const sim::Paths& paths) {
   return squares / static_cast<double>(outcome.pairs.size());
 }
 
-Errors errors_of_batch(const Experiment& experiment, ReplicateMaker& maker, std::size_t rays, int batch) {
-  Errors errors;
+std::vector<double> errors_of_batch(const Experiment& experiment, ReplicateMaker& maker, std::size_t rays, int batch) {
   const auto inside = samples_on_walls(samples_of_each_batch, 0.15, 0.15, batch_seed(experiment, 61, batch));
   const auto strip = samples_on_walls(strip_samples_of_each_batch, 0, 0.25, batch_seed(experiment, 62, batch));
   Runs discs;
   Runs triangles;
   Runs edges;
+  double pieces = 0;
+  double power = 0;
   for (std::size_t run = 0; run < runs_of_each_batch; ++run) {
     const sim::Paths paths = maker.trace(rays, batch_seed(experiment, 63 + static_cast<int>(run), batch), 0);
     using enum sim::Estimator;
     discs.push_back(maker.estimate(paths, inside, {.estimator = disc, .radius = noise_radius}).irradiance);
     triangles.push_back(maker.estimate(paths, inside, {.estimator = triangle_hits}).irradiance);
     edges.push_back(maker.estimate(paths, strip, {.estimator = disc, .radius = bias_radius}).irradiance);
-    errors.clumping += clumping_of(paths) / runs_of_each_batch;
-    errors.photon_power += flux / static_cast<double>(paths.photon_count) / runs_of_each_batch;
+    pieces += clumping_of(paths) / runs_of_each_batch;
+    power += flux / static_cast<double>(paths.photon_count) / runs_of_each_batch;
   }
-  errors.disc_noise = noise_of(discs);
-  errors.triangle_noise = noise_of(triangles);
-  errors.edge_bias = bias_of(edges);
-  return errors;
-}
-
-Estimate mean_of(const std::vector<Errors>& batches, double Errors::*value) {
-  std::vector<double> values;
-  for (const Errors& one : batches) values.push_back(one.*value);
-  return batch_means(values);
-}
-
-Finding finding(std::string id, std::string quantity, double predicted, const Estimate& observed, double tolerance) {
-  return {.id = std::move(id),
-          .quantity = std::move(quantity),
-          .predictions = {{Form::corrected, "our derivation", predicted}},
-          .observed = observed,
-          .tolerance = tolerance};
+  return {noise_of(discs), noise_of(triangles), bias_of(edges), pieces, power};
 }
 
 }  // namespace
@@ -163,34 +147,32 @@ std::vector<Finding> accuracy_findings(const Experiment& experiment) {
   const std::size_t rays = lines_per_batch(experiment, rays_of_each_run);
   sim::Scene furnace = sim::open_scene({.name = "@furnace", .samples = {}});
   ReplicateMaker maker(furnace, false, 1, experiment.stop);
-  std::vector<Errors> batches;
+  BatchNumbers batches;
   for (int batch = 0; batch < batch_count; ++batch) {
     if (experiment.stop.stop_requested()) return {};
     batches.push_back(errors_of_batch(experiment, maker, rays, batch));
   }
   const model::SceneLight light{irradiance, irradiance * irradiance};
-  const double power = mean_of(batches, &Errors::photon_power).mean;
+  const double power = mean_of(batches, Errors::photon_power).mean;
   const auto clumping = [](double radius) { return model::room_clumping(reflected, radius, room_area, walls); };
   const double strip_area = 0.5;
-  std::vector<Finding> findings{
-      finding("accuracy.disc-noise", "variance of discs of radius 0.05 in @furnace, over the squared irradiance",
-              model::disc_noise_squared(light, power, noise_radius, clumping(noise_radius)),
-              mean_of(batches, &Errors::disc_noise), 0.05),
-      finding("accuracy.triangle-noise", "variance of triangle hits in @furnace, over the squared irradiance",
-              model::triangle_noise_squared(light, power, wall_triangle_area),
-              mean_of(batches, &Errors::triangle_noise), few_patches),
-      finding("accuracy.edge-bias",
-              "squared bias of discs of radius 0.1 in strips between two edges of @furnace, relative",
-              model::bias_squared({.linear = model::bias_of_edges(1, strip_area)}, bias_radius),
-              mean_of(batches, &Errors::edge_bias), few_rays),
-      finding("accuracy.clumping",
-              "sum of m² over sum of m, m the pieces of a photon on a disc of radius 0.25 in @furnace",
-              clumping(clumping_radius), mean_of(batches, &Errors::clumping), 0.01)};
-  for (Finding& one : findings) {
-    one.batches = batch_count;
-    one.lines = runs_of_each_batch * rays * batch_count;
-    one.seconds = clock.seconds();
-  }
+  std::vector<Finding> findings;
+  const auto add = [&](std::string id, std::string quantity, double predicted, std::size_t found, double tolerance) {
+    for (Finding& one : completed({{.id = std::move(id),
+                        .quantity = std::move(quantity),
+                        .predictions = {{Form::corrected, "our derivation", predicted}},
+                        .observed = mean_of(batches, found)}},
+                                  {.tolerance = tolerance, .lines = runs_of_each_batch * rays, .clock = clock}))
+      findings.push_back(std::move(one));
+  };
+  add("accuracy.disc-noise", "variance of discs of radius 0.05 in @furnace, over the squared irradiance",
+      model::disc_noise_squared(light, power, noise_radius, clumping(noise_radius)), Errors::disc_noise, 0.05);
+  add("accuracy.triangle-noise", "variance of triangle hits in @furnace, over the squared irradiance",
+      model::triangle_noise_squared(light, power, wall_triangle_area), Errors::triangle_noise, few_patches);
+  add("accuracy.edge-bias", "squared bias of discs of radius 0.1 in strips between two edges of @furnace, relative",
+      model::bias_squared({.linear = model::bias_of_edges(1, strip_area)}, bias_radius), Errors::edge_bias, few_rays);
+  add("accuracy.clumping", "sum of m² over sum of m, m the pieces of a photon on a disc of radius 0.25 in @furnace",
+      clumping(clumping_radius), Errors::clumping, 0.01);
   findings.push_back(smooth_bias_finding(experiment));
   return findings;
 }

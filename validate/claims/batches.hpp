@@ -1,13 +1,17 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "claim.hpp"
 #include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 
 namespace detp::validate {
@@ -42,6 +46,49 @@ auto for_each_batch(const Experiment& experiment, const One& one) {
   return results;
 }
 
+/// What each batch found: a number for each quantity.
+using BatchNumbers = std::vector<std::vector<double>>;
+
+/// Mean of a quantity over the batches, less that of another if there is one.
+[[nodiscard]] inline Estimate mean_of(const BatchNumbers& batches, std::size_t quantity,
+                                      std::optional<std::size_t> less = {}) {
+  std::vector<double> values;
+  for (const auto& batch : batches) values.push_back(batch[quantity] - (less ? batch[*less] : 0));
+  return batch_means(values);
+}
+
+/// Geometric mean of a quantity whose logarithms the batches have; of its ratio to another if there is one. The standard error is that of the
+/// mean logarithm, multiplied by the mean.
+[[nodiscard]] inline Estimate geometric_mean_of(const BatchNumbers& logarithms, std::size_t quantity,
+                                                std::optional<std::size_t> over = {}) {
+  const Estimate log = mean_of(logarithms, quantity, over);
+  return {std::exp(log.mean), std::exp(log.mean) * log.standard_error};
+}
+
+/// What all findings of an experiment have.
+struct CommonFacts {
+  std::string_view technique = {};  ///< empty: as the findings say
+  double tolerance = 0;
+  std::size_t lines = 0;  ///< of each batch
+  const sim::Stopwatch& clock;
+};
+
+[[nodiscard]] inline std::vector<Finding> completed(std::vector<Finding> findings, const CommonFacts& facts) {
+  for (Finding& finding : findings) {
+    if (!facts.technique.empty()) finding.technique = facts.technique;
+    finding.batches = batch_count;
+    finding.tolerance = facts.tolerance;
+    finding.lines = facts.lines * batch_count;
+    finding.seconds = facts.clock.seconds();
+  }
+  return findings;
+}
+
+/// Lines of a batch that are the workload's, divided among the batches.
+[[nodiscard]] inline std::size_t share_of_rays(const Experiment& experiment) {
+  return std::max<std::size_t>(100, static_cast<std::size_t>(experiment.workload.rays) / batch_count);
+}
+
 /// The scene's discs, or without a scene, set number `set` of uniform discs with the properties of the workload.
 [[nodiscard]] inline std::vector<sim::Disc> sample_discs(const Experiment& experiment, int set) {
   if (!experiment.discs.empty()) return experiment.discs;
@@ -50,5 +97,9 @@ auto for_each_batch(const Experiment& experiment, const One& one) {
                             static_cast<std::size_t>(workload.samples), workload.disc_radius,
                             batch_seed(experiment, 10, set), experiment.stop);
 }
+
+/// The bias of discs in smooth light (c₄ of model/accuracy/scene_error.hpp): parallel light whose Laplacian is the same everywhere,
+/// so that no higher term adds to the bias. Throws sim::Stopped.
+[[nodiscard]] Finding smooth_bias_finding(const Experiment& experiment);
 
 }  // namespace detp::validate

@@ -77,18 +77,11 @@ Estimate observed_in(const CountedSearch& counted, const std::function<double(co
   return estimate;
 }
 
-/// The number of batches from which observed_in has its standard error.
-int batches_in(const CountedSearch& counted) { return std::max(2, static_cast<int>(counted.batches.size())); }
-
-/// See the figures in the README of this folder.
-constexpr double effects_tolerance = 0.5;
-
 /// A usual box tree: `detp scene` shows for it what switching an effect changes.
 Candidate usual_tree() { return {Technique::box_tree, BoxTreeParameters{8, 16}}; }
 
-double all_tests(const Counts<double>& counts) { return counts.cull_tests + counts.disc_tests; }
-
-double all_hits(const Counts<double>& counts) { return counts.hits; }
+/// See the figures in the README of this folder.
+constexpr double effects_tolerance = 0.5;
 
 /// Observed counts multiplied by unit costs give times that are wrong by a factor of 1.23 in the median. So a predicted
 /// count within 25 % of the observed count is not the main cause of a wrong predicted time.
@@ -108,18 +101,6 @@ double share_counted(const Prediction& ranked) {
                                                          : 1;
 }
 
-bool adds_up_over_rays(std::string_view term) {
-  return term != "culls" && term != "visits" && term != "placements" && term != "made";
-}
-
-/// The count for all the question's rays, scaled from the sampled rays. The standard error is 0 for a count that does
-/// not add up over rays.
-Estimate observed(const CountedSearch& counted, const CountTerm<double>& term, double predicted, double rays) {
-  if (!adds_up_over_rays(term.name)) return {counted.all.counts.*term.term, 0};
-  return observed_in(
-      counted, [&](const Counts<double>& counts) { return counts.*term.term; }, predicted, rays);
-}
-
 /// True if the count is a claim: it is `hits`, or has a unit cost > 0 for this technique.
 bool is_claimed(const CountTerm<double>& term, Technique technique) {
   if (term.name == "loaded" || term.name == "segments" || term.name == "sorted" || term.name == "bytes_touched")
@@ -130,10 +111,43 @@ bool is_claimed(const CountTerm<double>& term, Technique technique) {
          price(one, built_in_unit_costs(), technique).total() > price({}, built_in_unit_costs(), technique).total();
 }
 
-std::string with_dashes(std::string_view text) {
-  std::string dashed(text);
-  std::replace(dashed.begin(), dashed.end(), '_', '-');
-  return dashed;
+/// A count that is a claim.
+struct ClaimedCount {
+  std::string id;
+  std::string quantity;
+  std::function<double(const Counts<double>&)> value;
+  bool adds_up = true;  ///< over rays; false: it is that of the counted rays, and exact
+};
+
+/// What the findings about one candidate have in common.
+struct CandidateFacts {
+  Candidate candidate;
+  Counts<double> predicted;
+  std::string source;  ///< of the prediction
+  double rays = 0;     ///< for which it is
+  double tolerance = 0;
+};
+
+std::vector<Finding> findings_of(const CandidateFacts& facts, const CountedSearch& counted,
+                                 const std::vector<ClaimedCount>& claimed, const sim::Stopwatch& clock) {
+  std::vector<Finding> findings;
+  for (const ClaimedCount& one : claimed) {
+    const double predicted = one.value(facts.predicted);
+    const Estimate found = one.adds_up ? observed_in(counted, one.value, predicted, facts.rays)
+                                       : Estimate{one.value(counted.all.counts), 0};
+    if (predicted == 0 && found.mean == 0) continue;
+    findings.push_back({.id = one.id,
+                        .quantity = one.quantity,
+                        .technique = std::string(name(facts.candidate.technique)),
+                        .parameters = describe(facts.candidate),
+                        .predictions = {{Form::corrected, facts.source, predicted}},
+                        .observed = found,
+                        .batches = one.adds_up ? std::max(2, static_cast<int>(counted.batches.size())) : 0,
+                        .tolerance = facts.tolerance,
+                        .lines = static_cast<std::uint64_t>(counted.all.rays),
+                        .seconds = clock.seconds()});
+  }
+  return findings;
 }
 
 std::vector<Finding> candidate_findings(const Experiment& experiment, const Prediction& ranked) {
@@ -142,27 +156,21 @@ std::vector<Finding> candidate_findings(const Experiment& experiment, const Pred
   if (!counted) return {};
   const std::string_view technique = name(ranked.candidate.technique);
   const std::string parameters = describe(ranked.candidate);
-  const std::string candidate = fmt::format("{}{}{}", technique, parameters.empty() ? "" : " ", parameters);
-  const double rays = static_cast<double>(experiment.choice->rays.size());
-  std::vector<Finding> findings;
-  for (const CountTerm<double>& count_term : count_terms<double>) {
-    const std::string_view term = count_term.name;
-    const double predicted = ranked.counts.*count_term.term;
-    if (!is_claimed(count_term, ranked.candidate.technique)) continue;
-    const Estimate found = observed(*counted, count_term, predicted, rays);
-    if (predicted == 0 && found.mean == 0) continue;
-    findings.push_back({.id = fmt::format("choice.{}.{}", technique, with_dashes(term)),
-                        .quantity = fmt::format("{} of {}, as choose predicts them", with_dashes(term), candidate),
-                        .technique = std::string(technique),
-                        .parameters = parameters,
-                        .predictions = {{Form::corrected, "the closed form that choose prices", predicted}},
-                        .observed = found,
-                        .batches = adds_up_over_rays(term) ? batches_in(*counted) : 0,
-                        .tolerance = choice_tolerance,
-                        .lines = static_cast<std::uint64_t>(counted->all.rays)});
+  std::vector<ClaimedCount> claimed;
+  for (const CountTerm<double>& term : count_terms<double>) {
+    if (!is_claimed(term, ranked.candidate.technique)) continue;
+    std::string count(term.name);
+    std::ranges::replace(count, '_', '-');
+    claimed.push_back(
+        {fmt::format("choice.{}.{}", technique, count),
+         fmt::format("{} of {}{}{}, as choose predicts them", count, technique, parameters.empty() ? "" : " ",
+                     parameters),
+         [of = term.term](const Counts<double>& counts) { return counts.*of; },
+         term.name != "culls" && term.name != "visits" && term.name != "placements" && term.name != "made"});
   }
-  for (Finding& finding : findings) finding.seconds = clock.seconds();
-  return findings;
+  return findings_of({ranked.candidate, ranked.counts, "the closed form that choose prices",
+                      static_cast<double>(experiment.choice->rays.size()), choice_tolerance},
+                     *counted, claimed, clock);
 }
 
 }  // namespace
@@ -189,29 +197,18 @@ double choice_work(const Experiment& experiment) {
 std::vector<Finding> effect_findings(const Experiment& experiment) {
   if (!experiment.choice || experiment.stop.stop_requested()) return {};
   const sim::Stopwatch clock;
-  const ChoiceQuestion& question = *experiment.choice;
+  const Workload& workload = experiment.choice->workload;
   const auto counted = count_search(experiment, usual_tree());
   if (!counted) return {};
-  const Counts<double> predicted = model::predict(question.workload, usual_tree());
-  const std::string with = question.effects.empty() ? "no effect" : question.effects;
-  std::vector<Finding> findings;
-  const auto add = [&](const char* id, const char* what, double (*value)(const Counts<double>&)) {
-    const Estimate found = observed_in(*counted, value, value(predicted), question.workload.rays);
-    findings.push_back({.id = fmt::format("effects.{}", id),
-                        .quantity = fmt::format("{} of {} {}, predicted with {}", what, name(Technique::box_tree),
-                                                describe(usual_tree()), with),
-                        .technique = std::string(name(Technique::box_tree)),
-                        .parameters = describe(usual_tree()),
-                        .predictions = {{Form::corrected, "the closed form with these effects", value(predicted)}},
-                        .observed = found,
-                        .batches = batches_in(*counted),
-                        .tolerance = effects_tolerance,
-                        .lines = static_cast<std::uint64_t>(counted->all.rays)});
-  };
-  add("tests", "tests of rays with boxes and discs", all_tests);
-  add("hits", "hits", all_hits);
-  for (Finding& finding : findings) finding.seconds = clock.seconds();
-  return findings;
+  const std::string of_tree =
+      fmt::format("of {} {}, predicted with {}", name(Technique::box_tree), describe(usual_tree()),
+                  experiment.choice->effects.empty() ? "no effect" : experiment.choice->effects);
+  return findings_of({usual_tree(), model::predict(workload, usual_tree()), "the closed form with these effects",
+                      workload.rays, effects_tolerance},
+                     *counted,
+                     {{"effects.tests", "tests of rays with boxes and discs " + of_tree, &tests<double>},
+                      {"effects.hits", "hits " + of_tree, &Counts<double>::hits}},
+                     clock);
 }
 
 double effect_work(const Experiment& experiment) {

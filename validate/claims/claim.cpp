@@ -1,6 +1,8 @@
 #include "claim.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace detp::validate {
 namespace {
@@ -29,7 +31,12 @@ Claim judge_one(const Finding& finding, const FormulaValue& prediction, double w
               .detectable = detectable_deviation(prediction.value, finding.observed, finding.tolerance, width),
               .verdict = verdict_on(prediction.value),
               .lines = finding.lines,
-              .seconds = finding.seconds};
+              .seconds = finding.seconds,
+              .refinement = finding.refinement};
+  claim.documented = claim.form == Form::published && claim.verdict == Verdict::refuted &&
+                     std::ranges::any_of(finding.predictions, [&](const FormulaValue& other) {
+                       return other.form == Form::corrected && other.value != prediction.value;
+                     });
   const double away = prediction.value < finding.observed.mean ? -1 : 1;
   claim.control_offset = control_offset(claim, finding, away);
   claim.control = prediction.value * (1 + claim.control_offset);
@@ -39,15 +46,52 @@ Claim judge_one(const Finding& finding, const FormulaValue& prediction, double w
 
 }  // namespace
 
-std::vector<Claim> judge_all(const std::vector<Finding>& findings, double budget) {
+Claims judge_all(const std::vector<Finding>& findings, double budget) {
   int comparisons = 0;
   for (const Finding& finding : findings) comparisons += 3 * static_cast<int>(finding.predictions.size());
-  std::vector<Claim> claims;
+  Claims claims;
   for (const Finding& finding : findings) {
     const double width = finding.batches == 0 ? 0 : interval_width(budget, comparisons, finding.batches);
     for (const FormulaValue& prediction : finding.predictions) claims.push_back(judge_one(finding, prediction, width));
   }
   return claims;
+}
+
+std::string_view control_name(Verdict verdict) {
+  return verdict == Verdict::refuted ? "caught" : verdict == Verdict::agrees ? "missed" : "undecided";
+}
+
+Claims those(const Claims& claims, const std::function<bool(const Claim&)>& condition) {
+  Claims found;
+  std::ranges::copy_if(claims, std::back_inserter(found), condition);
+  return found;
+}
+
+Claims with_form(const Claims& claims, Form form) {
+  return those(claims, [&](const Claim& claim) { return claim.form == form; });
+}
+
+Claims with_verdict(const Claims& claims, Verdict verdict) {
+  return those(claims, [&](const Claim& claim) { return claim.verdict == verdict; });
+}
+
+Claims starting_with(const Claims& claims, const std::string& start) {
+  return those(claims, [&](const Claim& claim) { return claim.id.starts_with(start); });
+}
+
+std::vector<std::string> judged_candidates(const Claims& claims) {
+  std::vector<std::string> techniques;
+  for (const Claim& claim : starting_with(claims, "choice."))
+    if (techniques.empty() || techniques.back() != claim.technique) techniques.push_back(claim.technique);
+  return techniques;
+}
+
+Claims of_candidate(const Claims& claims, const std::string& technique) {
+  return starting_with(claims, "choice." + technique + ".");
+}
+
+std::size_t controls(const Claims& claims, Verdict verdict) {
+  return static_cast<std::size_t>(std::ranges::count(claims, verdict, &Claim::control_verdict));
 }
 
 }  // namespace detp::validate

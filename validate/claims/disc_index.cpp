@@ -9,7 +9,6 @@
 #include "detp/model/disc_index/disc_index.hpp"
 #include "detp/model/disc_index/disc_index_published.hpp"
 #include "detp/model/lines/line_measure.hpp"
-#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/geometry/ray_box.hpp"
 #include "detp/sim/index/indexed_search.hpp"
 #include "detp/sim/rays/line_field.hpp"
@@ -24,12 +23,15 @@ namespace {
 constexpr double index_tolerance = 0.02;
 constexpr std::size_t lines_through_cells = 20'000;  ///< of each batch
 
-struct IndexBatch {
-  double lines = 0;
-  double hitting = 0;     ///< lines that hit the index's cube
-  double steps = 0;       ///< of a grid
-  double disc_tests = 0;  ///< of an octree
-  double hits = 0;
+/// The numbers that a batch counts.
+struct Counted {
+  enum : std::size_t {
+    lines,
+    hitting,     ///< lines that hit the index's cube
+    steps,       ///< of a grid
+    disc_tests,  ///< of an octree
+    hits
+  };
 };
 
 int tested_depth(const Workload& workload) {
@@ -48,48 +50,44 @@ sim::Box index_cube(const std::vector<sim::Disc>& discs) {
   return {box.low, box.low + std::max({size.x, size.y, size.z})};
 }
 
-IndexBatch run_batch(const Experiment& experiment, const std::vector<sim::Disc>& discs, const Candidate& candidate,
-                     int part, std::size_t count, int batch) {
-  const auto lines = sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, part, batch))
-                         .lines(0, count, experiment.stop);
-  const sim::Outcome outcome = sim::run(sim::make_problem(lines, discs), candidate, {.stop = experiment.stop});
-  return {.lines = static_cast<double>(count),
-          .hitting = lines_that_hit(lines, index_cube(discs)),
-          .steps = static_cast<double>(outcome.counts.steps),
-          .disc_tests = static_cast<double>(outcome.counts.disc_tests),
-          .hits = static_cast<double>(outcome.total_hits)};
+/// Of each batch.
+BatchNumbers count_batches(const Experiment& experiment, const std::vector<sim::Disc>& discs,
+                           const Candidate& candidate, int part, std::size_t count) {
+  return for_each_batch(experiment, [&](int batch) {
+    const auto lines = sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, part, batch))
+                           .lines(0, count, experiment.stop);
+    const sim::Outcome outcome = sim::run(sim::make_problem(lines, discs), candidate, {.stop = experiment.stop});
+    return std::vector{static_cast<double>(count), lines_that_hit(lines, index_cube(discs)),
+                       static_cast<double>(outcome.counts.steps), static_cast<double>(outcome.counts.disc_tests),
+                       static_cast<double>(outcome.total_hits)};
+  });
 }
 
-Estimate ratio(const std::vector<IndexBatch>& batches, double IndexBatch::*above, double IndexBatch::*below) {
+Estimate ratio(const BatchNumbers& batches, std::size_t above, std::size_t below) {
   std::vector<double> numerators;
   std::vector<double> denominators;
-  for (const IndexBatch& batch : batches) {
-    numerators.push_back(batch.*above);
-    denominators.push_back(batch.*below);
+  for (const std::vector<double>& batch : batches) {
+    numerators.push_back(batch[above]);
+    denominators.push_back(batch[below]);
   }
   return batch_ratio(numerators, denominators);
 }
 
 /// Cells per line, counted on a grid over two small discs in opposite corners of a cube.
-Finding cells_finding(const Experiment& experiment) {
+std::vector<Finding> cells_findings(const Experiment& experiment) {
   const sim::Stopwatch clock;
   const std::size_t lines = lines_per_batch(experiment, lines_through_cells);
   const int depth = tested_depth(experiment.workload);
   const std::vector<sim::Disc> corners{{.centre = glm::dvec3{-1}, .radius = 1e-3},
                                        {.centre = glm::dvec3{1}, .radius = 1e-3}};
-  const auto batches = for_each_batch(experiment, [&](int batch) {
-    return run_batch(experiment, corners, {Technique::grid, GridParameters{1 << depth}}, 20, lines, batch);
-  });
+  const auto batches = count_batches(experiment, corners, {Technique::grid, GridParameters{1 << depth}}, 20, lines);
   const double cells = model::published::cells_per_line(depth);
-  return {.id = "cells-per-line",
-          .quantity = fmt::format("cells of a 2^{} grid crossed by a line that hits its cube", depth),
-          .technique = std::string(name(Technique::grid)),
-          .predictions = {{Form::published, "section 4.2", cells}, {Form::corrected, "section 4.2, unchanged", cells}},
-          .observed = ratio(batches, &IndexBatch::steps, &IndexBatch::hitting),
-          .batches = batch_count,
-          .tolerance = index_tolerance,
-          .lines = lines * batch_count,
-          .seconds = clock.seconds()};
+  return completed(
+      {{.id = "cells-per-line",
+        .quantity = fmt::format("cells of a 2^{} grid crossed by a line that hits its cube", depth),
+        .predictions = {{Form::published, "section 4.2", cells}, {Form::corrected, "section 4.2, unchanged", cells}},
+        .observed = ratio(batches, Counted::steps, Counted::hitting)}},
+      {name(Technique::grid), index_tolerance, lines, clock});
 }
 
 /// Raises the standard error to √(μ/N) if it is less: that of independent events, μ per line (predicted), on N lines.
@@ -100,7 +98,7 @@ void allow_for_rare_events(Finding& finding) {
 }
 
 /// For uniform samples, whose cube lies inside S₀: the closed form predicts the tests per line that hits the cube.
-Finding uniform_tests(const Workload& workload, const std::vector<IndexBatch>& batches, int depth) {
+Finding uniform_tests(const Workload& workload, const BatchNumbers& batches, int depth) {
   const double overlapped = model::index_cells(workload, std::ldexp(1.0, depth)).overlapped;
   return {.id = "octree-tests-per-line",
           .quantity = fmt::format("ray-disc tests per line that hits the cube, octree of depth {}", depth),
@@ -109,14 +107,14 @@ Finding uniform_tests(const Workload& workload, const std::vector<IndexBatch>& b
                            model::published::tests_per_line(workload.samples, depth)},
                           {Form::corrected, "n_P E(d/a) / 4^k, our derivation",
                            workload.samples * overlapped / std::ldexp(1.0, 2 * depth)}},
-          .observed = ratio(batches, &IndexBatch::disc_tests, &IndexBatch::hitting)};
+          .observed = ratio(batches, Counted::disc_tests, Counted::hitting)};
 }
 
 /// For a scene: predicts the tests per line through S₀. The cube of a flat scene extends outside S₀, so fewer lines hit
 /// the cube than its area predicts. The paper's tests per line that hits the cube are multiplied by P(line hits the
 /// cube).
-Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& discs,
-                    const std::vector<IndexBatch>& batches, int depth) {
+Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& discs, const BatchNumbers& batches,
+                    int depth) {
   const double side = index_cube(discs).size().x;
   const double radius = sim::enclosing_sphere(discs).radius;
   const double per_cube = 1.5 / std::numbers::pi * side * side / (radius * radius);
@@ -127,20 +125,19 @@ Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& disc
                            model::published::tests_per_line(workload.samples, depth) * per_cube},
                           {Form::corrected, "n_P E(d/a) P(cell), our derivation",
                            model::octree_counts(workload, {depth}).disc_tests / workload.rays}},
-          .observed = ratio(batches, &IndexBatch::disc_tests, &IndexBatch::lines)};
+          .observed = ratio(batches, Counted::disc_tests, Counted::lines)};
 }
 
-Finding structural_tests(const std::vector<sim::Disc>& discs, const std::vector<IndexBatch>& batches, int depth) {
+Finding structural_tests(const std::vector<sim::Disc>& discs, const BatchNumbers& batches, int depth) {
   const Counts<double> expected = structural_counts(discs, 1, {Technique::octree, OctreeParameters{depth}});
   return {.id = "octree-tests-structural",
           .quantity = fmt::format("ray-disc tests per line through S0, octree of depth {}, by its nodes' areas", depth),
           .technique = std::string(name(Technique::octree)),
           .predictions = {{Form::corrected, "eq (3) summed over the octree, our derivation", expected.disc_tests}},
-          .observed = ratio(batches, &IndexBatch::disc_tests, &IndexBatch::lines)};
+          .observed = ratio(batches, Counted::disc_tests, Counted::lines)};
 }
 
-Finding hits_finding(const Workload& workload, const std::vector<sim::Disc>& discs,
-                     const std::vector<IndexBatch>& batches) {
+Finding hits_finding(const Workload& workload, const std::vector<sim::Disc>& discs, const BatchNumbers& batches) {
   Workload one_line = workload;
   one_line.rays = 1;
   one_line.sphere_radius = sim::enclosing_sphere(discs).radius;
@@ -148,30 +145,24 @@ Finding hits_finding(const Workload& workload, const std::vector<sim::Disc>& dis
       .id = "hits-per-line",
       .quantity = "discs that a line through S0 hits",
       .predictions = {{Form::corrected, "eq (3) with F = 2 pi d^2, our derivation", model::expected_hits(one_line)}},
-      .observed = ratio(batches, &IndexBatch::hits, &IndexBatch::lines)};
+      .observed = ratio(batches, Counted::hits, Counted::lines)};
 }
 
 }  // namespace
 
 std::vector<Finding> disc_index_findings(const Experiment& experiment) {
-  std::vector<Finding> findings{cells_finding(experiment)};
+  std::vector<Finding> findings = cells_findings(experiment);
   const sim::Stopwatch clock;
   const Workload& workload = experiment.workload;
   const std::vector<sim::Disc> discs = sample_discs(experiment, 0);
   const int depth = tested_depth(workload);
-  const std::size_t lines = std::max<std::size_t>(100, static_cast<std::size_t>(workload.rays) / batch_count);
-  const auto batches = for_each_batch(experiment, [&](int batch) {
-    return run_batch(experiment, discs, {Technique::octree, OctreeParameters{depth}}, 21, lines, batch);
-  });
+  const std::size_t lines = share_of_rays(experiment);
+  const auto batches = count_batches(experiment, discs, {Technique::octree, OctreeParameters{depth}}, 21, lines);
   if (experiment.stop.stop_requested()) return {};
-  std::vector<Finding> found{
-      experiment.discs.empty() ? uniform_tests(workload, batches, depth) : scene_tests(workload, discs, batches, depth),
-      structural_tests(discs, batches, depth), hits_finding(workload, discs, batches)};
-  for (Finding& finding : found) {
-    finding.batches = batch_count;
-    finding.tolerance = index_tolerance;
-    finding.lines = lines * batch_count;
-    finding.seconds = clock.seconds();
+  for (Finding& finding : completed({experiment.discs.empty() ? uniform_tests(workload, batches, depth)
+                                                              : scene_tests(workload, discs, batches, depth),
+                                     structural_tests(discs, batches, depth), hits_finding(workload, discs, batches)},
+                                    {.tolerance = index_tolerance, .lines = lines, .clock = clock})) {
     allow_for_rare_events(finding);
     findings.push_back(std::move(finding));
   }

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "detp/sim/base/phase.hpp"
-#include "detp/validate/checkpoint/checkpoint_file.hpp"
+#include "detp/sim/ranks/farm.hpp"
+#include "detp/validate/checkpoint/value_json.hpp"
 #include "experiments.hpp"
 
-/// Counts until the relative error of what is observed is small enough.
+/// Counts until the relative error of what is observed is small enough; experiments that ranks share.
 namespace detp::validate {
 
 struct FindingsTarget {
@@ -21,22 +25,8 @@ struct FindingsTarget {
 /// Throws std::invalid_argument unless errors and confidence are in (0, 1) and 0 <= least_lines <= most_lines.
 void check(const FindingsTarget& target);
 
-/// How far one finding got.
-struct Refinement {
-  double relative_error = 0;  ///< not finite if nothing was met
-  bool reached = false;
-  /// That the target would still take, by the error so far; infinite if nothing was met. Nothing if the target is reached, or if the
-  /// finding counts on given rays.
-  std::optional<double> more_lines = {};
-  std::optional<double> more_seconds = {};
-  /// If nothing was met: bound of the share of lines that meet anything, -ln(error allowed to this finding)/lines. Holds if lines are
-  /// independent.
-  std::optional<double> share_bound = {};
-};
-
 struct FindingsUntil {
-  std::vector<Finding> findings;
-  std::vector<Refinement> refinements;  ///< of each finding
+  std::vector<Finding> findings;  ///< each with its refinement
   bool stopped = false;
 };
 
@@ -47,11 +37,49 @@ struct FindingsUntil {
 /// size of a batch.
 ///
 /// Claims that count on given rays, or exactly, are not repeated. A stop request ends the work with what is known. With a checkpoint,
-/// goes on from `saved`, unless null, and writes the state now and then. Throws as check, CheckpointFile::write, and sim::FileError for
-/// a damaged state.
+/// writes the state to this file now and then, and if `resume`, goes on from it. Throws as check, CheckpointFile::read and ::write.
 [[nodiscard]] FindingsUntil findings_until(const Experiment& experiment, const FindingsTarget& target,
-                                           const sim::ReportPhase& progress = {}, CheckpointFile* checkpoint = nullptr,
-                                           const nlohmann::json& saved = {},
-                                           std::span<const ExperimentStep> steps = experiment_steps());
+                                           std::span<const ExperimentStep> steps = experiment_steps(),
+                                           const std::optional<std::filesystem::path>& checkpoint = {},
+                                           bool resume = false, const sim::ReportPhase& progress = {});
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FormulaValue, form, source, value)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, id, quantity, technique, parameters, predictions, observed, batches,
+                                   tolerance, lines, seconds)
+
+/// One of the experiments, and which of its repetitions: each has its own seed; number 0 has the experiment's.
+struct Repetition {
+  std::size_t step = 0;
+  std::uint64_t number = 0;
+};
+
+struct FoundOnce {
+  std::vector<Finding> findings;
+  double seconds = 0;
+  bool stopped = false;  ///< and has no findings
+};
+
+/// Runs experiments on the ranks of Experiment::ranks, or on this process alone.
+class SharedFindings {
+ public:
+  /// Keeps references to both.
+  SharedFindings(const Experiment& experiment, std::span<const ExperimentStep> steps);
+
+  /// On rank 0. In the order of the repetitions. `costs`: as Farm::all.
+  [[nodiscard]] std::vector<FoundOnce> find(const std::vector<Repetition>& repetitions,
+                                            const std::vector<double>& costs = {});
+  /// Repetitions that are found at the same time.
+  [[nodiscard]] std::size_t at_once() const;
+  /// On the other ranks. Returns when rank 0 has all that it needs.
+  void serve() { farm_->serve(); }
+
+ private:
+  [[nodiscard]] FoundOnce find_here(const Repetition& repetition) const;
+
+  const Experiment& experiment_;
+  std::span<const ExperimentStep> steps_;
+  sim::Farm::Work work_;
+  std::optional<sim::Farm> farm_;
+};
 
 }  // namespace detp::validate

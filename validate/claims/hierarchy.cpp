@@ -7,7 +7,6 @@
 
 #include "batches.hpp"
 #include "detp/model/rank/predict.hpp"
-#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/base/search_work.hpp"
@@ -45,7 +44,7 @@ constexpr Quantity listed{"listed-rays", "listed-structural", "rays listed", &Co
 constexpr Quantity nodes{"nodes-visited", "nodes-structural", "nodes visited", &Counts<double>::culls, false};
 constexpr Quantity discs_visited{"discs-visited", "visits-structural", "discs visited", &Counts<double>::visits, false};
 
-Subject cell_spheres(const Workload& workload) {
+Subject cell_spheres_subject(const Workload& workload) {
   // The deepest level whose cells are at least as wide as a disc; at most the curve's 16 levels.
   const double halvings = std::floor(std::log2(scene_side(workload) / (2 * workload.disc_radius)));
   const int deepest = static_cast<int>(std::clamp(halvings, 2.0, 16.0));
@@ -60,7 +59,7 @@ Subject cell_spheres(const Workload& workload) {
           {sphere_tests, disc_tests}};
 }
 
-Subject sphere_tree() {
+Subject sphere_tree_subject() {
   return {Technique::sphere_tree,
           "sphere-tree",
           Engine::plain,
@@ -72,7 +71,7 @@ Subject sphere_tree() {
 }
 
 /// Trees of four children a node, with 8 and 16 discs in a leaf.
-Subject box_tree(Engine engine) {
+Subject box_tree_subject(Engine engine) {
   return {Technique::box_tree,
           fmt::format("box-tree-{}", name(engine)),
           engine,
@@ -84,28 +83,18 @@ Subject box_tree(Engine engine) {
 }
 
 std::vector<Subject> all_subjects(const Workload& workload) {
-  return {cell_spheres(workload), sphere_tree(), box_tree(Engine::plain), box_tree(Engine::simd)};
+  return {cell_spheres_subject(workload), sphere_tree_subject(), box_tree_subject(Engine::plain),
+          box_tree_subject(Engine::simd)};
 }
 
 /// Share of the lines on which nodes and visits are counted. With all lines, hardly any list would be empty, and the
 /// claims would be trivial.
 constexpr double few_lines = 0.125;
 
-/// Mean logarithms over a subject's candidates, one for each of its quantities.
-using SubjectLogs = std::vector<double>;
-
-struct SubjectSet {
-  SubjectLogs counted, closed, structural;
-};
-
-/// Adds the logarithms of one candidate's counts per line, for the quantities whose `per_line` equals the argument.
-void add(SubjectLogs& logs, const Subject& subject, bool per_line, const Counts<double>& counts, double lines) {
-  logs.resize(subject.quantities.size(), 0);
-  for (std::size_t i = 0; i < logs.size(); ++i) {
-    const Quantity& quantity = subject.quantities[i];
-    if (quantity.per_line == per_line)
-      logs[i] += std::log(counts.*quantity.term / lines) / static_cast<double>(subject.candidates.size());
-  }
+/// For each quantity the mean logarithms over a subject's candidates of what one set counts and of its predictions. Columns of a set's numbers.
+enum class Source : std::size_t { counted, closed, structural };
+std::size_t place_of(const Subject& subject, Source source, std::size_t quantity) {
+  return static_cast<std::size_t>(source) * subject.quantities.size() + quantity;
 }
 
 Workload workload_of(const Experiment& experiment, const sim::Problem& problem) {
@@ -115,79 +104,65 @@ Workload workload_of(const Experiment& experiment, const sim::Problem& problem) 
   return workload;
 }
 
-/// Returns false if a stop was requested.
+/// Adds the numbers of the quantities whose `per_line` equals the argument. Returns false if a stop was requested.
 bool run_lines(const Experiment& experiment, const Subject& subject, const sim::Problem& problem, bool per_line,
-               SubjectSet& result) {
+               std::vector<double>& numbers) {
   const auto lines = static_cast<double>(problem.rays().size());
   for (const Candidate& candidate : subject.candidates) {
     const sim::Outcome outcome = sim::run(problem, candidate, {.engine = subject.engine, .stop = experiment.stop});
     if (outcome.stopped) return false;
-    const Counts<double> closed = model::predict(workload_of(experiment, problem), candidate, subject.engine);
-    const Counts<double> structural =
-        structural_counts(problem, lines, candidate, experiment.stop, false, subject.engine);
-    add(result.counted, subject, per_line, as_expected(outcome.counts), lines);
-    add(result.closed, subject, per_line, closed, lines);
-    add(result.structural, subject, per_line, structural, lines);
+    const auto add = [&](Source source, const Counts<double>& counts) {
+      for (std::size_t i = 0; i < subject.quantities.size(); ++i)
+        if (const Quantity& quantity = subject.quantities[i]; quantity.per_line == per_line)
+          numbers[place_of(subject, source, i)] +=
+              std::log(counts.*quantity.term / lines) / static_cast<double>(subject.candidates.size());
+    };
+    add(Source::counted, as_expected(outcome.counts));
+    add(Source::closed, model::predict(workload_of(experiment, problem), candidate, subject.engine));
+    add(Source::structural, structural_counts(problem, lines, candidate, experiment.stop, false, subject.engine));
   }
   return true;
 }
 
-SubjectSet run_set(const Experiment& experiment, const Subject& subject, std::size_t lines, int set) {
-  SubjectSet result;
+bool all_per_line(const Subject& subject) { return std::ranges::all_of(subject.quantities, &Quantity::per_line); }
+
+std::vector<double> run_set(const Experiment& experiment, const Subject& subject, std::size_t lines, int set) {
+  std::vector<double> numbers(3 * subject.quantities.size());
   const std::vector<sim::Disc> discs = sample_discs(experiment, set);
   const auto rays =
       sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, 31, set)).lines(0, lines, experiment.stop);
-  if (!run_lines(experiment, subject, sim::make_problem(rays, discs), true, result)) return {};
-  const bool all_per_line = std::ranges::all_of(subject.quantities, &Quantity::per_line);
+  if (!run_lines(experiment, subject, sim::make_problem(rays, discs), true, numbers)) return {};
   const auto few = static_cast<std::size_t>(std::ceil(few_lines * static_cast<double>(lines)));
   const std::span<const sim::Ray> some(rays.data(), few);
-  if (!all_per_line && !run_lines(experiment, subject, sim::make_problem(some, discs), false, result)) return {};
-  return result;
+  if (!all_per_line(subject) && !run_lines(experiment, subject, sim::make_problem(some, discs), false, numbers))
+    return {};
+  return numbers;
 }
 
-using Column = SubjectLogs SubjectSet::*;
-
-double geometric_mean(const std::vector<SubjectSet>& sets, Column column, std::size_t quantity) {
-  double sum = 0;
-  for (const SubjectSet& set : sets) sum += (set.*column)[quantity];
-  return std::exp(sum / static_cast<double>(sets.size()));
-}
-
-/// Geometric mean of the counts over the sets, or of the ratios of counts to the predictions `below`. The standard
-/// error is that of the mean logarithm between sets, multiplied by the mean.
-Estimate counted(const std::vector<SubjectSet>& sets, std::size_t quantity, Column below = nullptr) {
-  std::vector<double> logs;
-  for (const SubjectSet& set : sets)
-    logs.push_back(set.counted[quantity] - (below == nullptr ? 0 : (set.*below)[quantity]));
-  const Estimate log = batch_means(logs);
-  return {std::exp(log.mean), std::exp(log.mean) * log.standard_error};
-}
-
-Finding closed_finding(const Subject& subject, const std::vector<SubjectSet>& sets, std::size_t i) {
+Finding closed_finding(const Subject& subject, const BatchNumbers& sets, std::size_t i) {
   const Quantity& quantity = subject.quantities[i];
+  const double predicted = geometric_mean_of(sets, place_of(subject, Source::closed, i)).mean;
   return {.id = fmt::format("{}-{}", subject.id, quantity.id),
           .quantity = fmt::format("{} per line{} of {}: {}", quantity.what, quantity.per_line ? "" : ", few lines",
                                   name(subject.technique), subject.over),
-          .predictions = {{Form::corrected, std::string(subject.source), geometric_mean(sets, &SubjectSet::closed, i)}},
-          .observed = counted(sets, i),
-          .tolerance = hierarchy_tolerance};
+          .predictions = {{Form::corrected, std::string(subject.source), predicted}},
+          .observed = geometric_mean_of(sets, place_of(subject, Source::counted, i))};
 }
 
-Finding structural_finding(const Subject& subject, const std::vector<SubjectSet>& sets, std::size_t i) {
+Finding structural_finding(const Subject& subject, const BatchNumbers& sets, std::size_t i) {
   const Quantity& quantity = subject.quantities[i];
   return {.id = fmt::format("{}-{}", subject.id, quantity.structural),
           .quantity =
               fmt::format("{} of {}, counted over those from its {} alone", quantity.what, subject.id, subject.bodies),
           .predictions = {{Form::corrected, fmt::format("areas of nested {}, our derivation", subject.bodies), 1}},
-          .observed = counted(sets, i, &SubjectSet::structural),
-          .tolerance = hierarchy_tolerance};
+          .observed =
+              geometric_mean_of(sets, place_of(subject, Source::counted, i), place_of(subject, Source::structural, i))};
 }
 
 }  // namespace
 
 std::vector<Finding> hierarchy_findings(const Experiment& experiment) {
-  const std::size_t lines =
-      std::max<std::size_t>(100, static_cast<std::size_t>(experiment.workload.rays) / batch_count);
+  const std::size_t lines = share_of_rays(experiment);
   std::vector<Finding> findings;
   for (const Subject& subject : all_subjects(experiment.workload)) {
     const sim::Stopwatch clock;
@@ -196,13 +171,8 @@ std::vector<Finding> hierarchy_findings(const Experiment& experiment) {
     std::vector<Finding> found;
     for (std::size_t i = 0; i < subject.quantities.size(); ++i) found.push_back(closed_finding(subject, sets, i));
     for (std::size_t i = 0; i < subject.quantities.size(); ++i) found.push_back(structural_finding(subject, sets, i));
-    for (Finding& finding : found) {
-      finding.technique = name(subject.technique);
-      finding.batches = batch_count;
-      finding.lines = lines * batch_count;
-      finding.seconds = clock.seconds();
+    for (Finding& finding : completed(std::move(found), {name(subject.technique), hierarchy_tolerance, lines, clock}))
       findings.push_back(std::move(finding));
-    }
   }
   return findings;
 }
@@ -210,7 +180,7 @@ std::vector<Finding> hierarchy_findings(const Experiment& experiment) {
 double hierarchy_work(const Experiment& experiment) {
   double work = 0;
   for (const Subject& subject : all_subjects(experiment.workload)) {
-    const int runs = std::ranges::all_of(subject.quantities, &Quantity::per_line) ? 1 : 2;
+    const int runs = all_per_line(subject) ? 1 : 2;
     for (const Candidate& candidate : subject.candidates)
       // Building a hierarchy and computing its structural counts takes about 40 units of work for each disc.
       work += test_work(model::predict(experiment.workload, candidate, subject.engine), subject.engine) +

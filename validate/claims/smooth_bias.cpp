@@ -1,10 +1,7 @@
-#include "smooth_bias.hpp"
-
 #include <cmath>
 
 #include "batches.hpp"
 #include "detp/model/accuracy/scene_error.hpp"
-#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/technique/technique.hpp"
 

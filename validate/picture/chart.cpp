@@ -108,7 +108,7 @@ class Scale {
   double high_ = 1;
 };
 
-void check(const Chart& chart) {
+void check_chart(const Chart& chart) {
   if (chart.points.empty()) throw std::invalid_argument("a chart without points cannot be drawn");
   for (const ChartPoint& point : chart.points)
     if (!std::isfinite(point.x) || !std::isfinite(point.y) || point.series >= chart.series.size())
@@ -157,7 +157,7 @@ struct Legend {
 }  // namespace
 
 std::string chart_svg(const Chart& chart) {
-  check(chart);
+  check_chart(chart);
   const double left = left_room(chart);
   const double height = chart.y.categories.empty()
                             ? ChartLayout::plain_height
@@ -167,16 +167,12 @@ std::string chart_svg(const Chart& chart) {
   const double bottom = ChartLayout::top + height;
   const Legend legend(chart, 8);
   std::vector<double> xs = values_of(chart, &ChartPoint::x, &ChartPoint::x_interval);
-  for (const ChartLimit& limit : chart.x_limits) xs.push_back(limit.at);
-  const bool limit_labels = std::ranges::any_of(chart.x_limits, [](const auto& one) { return !one.label.empty(); });
+  xs.insert(xs.end(), chart.x_limits.begin(), chart.x_limits.end());
   const Scale x(chart.x, std::move(xs), left, ChartLayout::width - ChartLayout::right);
   const Scale y(chart.y, values_of(chart, &ChartPoint::y, &ChartPoint::y_interval),
                 chart.y.categories.empty() ? bottom : ChartLayout::top,
                 chart.y.categories.empty() ? ChartLayout::top : bottom);
-  Svg svg =
-      Svg::in_page(ChartLayout::width,
-                   bottom + ChartLayout::axis_room + (limit_labels ? ChartLayout::legend_line : 0) + legend.height + 4,
-                   chart.description);
+  Svg svg = Svg::in_page(ChartLayout::width, bottom + ChartLayout::axis_room + legend.height + 4, chart.description);
   double widest = 0;
   for (const double tick : x.ticks(60)) widest = std::max(widest, text_width(tick_label(chart.x, tick)));
   for (const double tick : x.ticks(widest + 14)) {
@@ -203,12 +199,8 @@ std::string chart_svg(const Chart& chart) {
              {.size = ChartLayout::text_size, .anchor = Anchor::middle, .upwards = true});
   svg.text((left + ChartLayout::width - ChartLayout::right) / 2, bottom + 33, chart.x.title,
            {.size = ChartLayout::text_size, .anchor = Anchor::middle});
-  for (const ChartLimit& limit : chart.x_limits) {
-    svg.rule(x.place(limit.at), ChartLayout::top - 6, x.place(limit.at), bottom, true);
-    if (!limit.label.empty())
-      svg.text(x.place(limit.at), bottom + 33 + ChartLayout::legend_line, limit.label,
-               {.size = ChartLayout::text_size, .anchor = Anchor::middle});
-  }
+  for (const double limit : chart.x_limits)
+    svg.rule(x.place(limit), ChartLayout::top - 6, x.place(limit), bottom, true);
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     if (!chart.series[i].line) continue;
     std::vector<std::pair<double, double>> line;
@@ -235,7 +227,7 @@ std::string chart_svg(const Chart& chart) {
     svg.mark(series.mark, px, py, ChartLayout::mark_size, paint, series.filled);
   }
   if (open) svg.end_value();
-  const double legend_top = bottom + ChartLayout::axis_room + (limit_labels ? ChartLayout::legend_line : 0) + 12;
+  const double legend_top = bottom + ChartLayout::axis_room + 12;
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     const ChartSeries& series = chart.series[i];
     if (series.name.empty()) continue;

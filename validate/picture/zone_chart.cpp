@@ -1,12 +1,10 @@
-#include "zone_chart.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
 
+#include "chart.hpp"
 #include "labels.hpp"
-#include "svg.hpp"
 
 namespace detp::validate {
 namespace {

@@ -4,20 +4,17 @@
 #include <cmath>
 
 #include "detp/validate/picture/labels.hpp"
-#include "detp/validate/picture/svg.hpp"
-#include "detp/validate/picture/zone_chart.hpp"
 #include "parts.hpp"
-#include "sections.hpp"
 
 namespace detp::validate {
 namespace {
 
 /// What would change the choice, by the tips of the choice and by the map.
-std::string finding_of(const ReportJson& choice, const ReportJson& map, const std::string& here) {
+std::string finding_of_map(const Json& choice, const Json& map, const std::string& here) {
   std::string others;
   std::size_t count = 0;
   std::size_t same = 0;
-  for (const ReportJson& cell : list(map, "cells")) {
+  for (const Json& cell : list(map, "cells")) {
     const std::string technique = words(list(cell, "predicted"), "technique");
     if (technique.empty()) continue;
     ++count;
@@ -31,7 +28,7 @@ std::string finding_of(const ReportJson& choice, const ReportJson& map, const st
           ? fmt::format("{} is predicted to be the fastest in all {} cells around this workload.", here, count)
           : fmt::format("{} is predicted to be the fastest in {} of {} cells; elsewhere: {}.", here, same, count,
                         others);
-  const ReportJson& range = list(choice, "tips_range");
+  const Json& range = list(choice, "tips_range");
   if (list(choice, "tips").empty() && list(range, "disc_radius").size() == 2 && list(range, "rays").size() == 2)
     text += fmt::format(" No other examined technique wins for radii from {:.3g} to {:.3g} or for {} to {} rays.",
                         list(range, "disc_radius")[0].get<double>(), list(range, "disc_radius")[1].get<double>(),
@@ -44,15 +41,15 @@ bool near(double a, double b) { return std::abs(a / b - 1) < 1e-3; }
 
 }  // namespace
 
-std::string map_section(const ReportJson& report) {
-  const ReportJson& map = answer_of(report, "map");
-  const ReportJson& choice = answer_of(report, "choice");
+std::string map_section(const Json& report) {
+  const Json& map = answer_of(report, "map");
+  const Json& choice = answer_of(report, "choice");
   const std::string title = "What would change the choice";
   if (list(map, "cells").empty()) return section_html(title, paragraph("Not made: stopped before it."));
   std::vector<double> rays;
   std::vector<double> radii;
-  for (const ReportJson& one : list(list(map, "axes"), "rays")) rays.push_back(one.get<double>());
-  for (const ReportJson& one : list(list(map, "axes"), "disc_radius")) radii.push_back(one.get<double>());
+  for (const Json& one : list(list(map, "axes"), "rays")) rays.push_back(one.get<double>());
+  for (const Json& one : list(list(map, "axes"), "disc_radius")) radii.push_back(one.get<double>());
   const double rays_here = number(list(choice, "inputs"), "rays").value_or(0);
   const double radius_here = number(list(choice, "inputs"), "disc_radius").value_or(0);
   std::ranges::reverse(radii);  // the largest above
@@ -64,10 +61,10 @@ std::string map_section(const ReportJson& report) {
                   .cells = std::vector(radii.size(), std::vector<std::optional<ZoneCell>>(rays.size()))};
   for (const double one : rays) chart.columns.push_back(rays_label(one));
   for (const double one : radii) chart.rows.push_back(fmt::format("{:.3g}", one));
-  Rows rows{.head = {"rays", "disc radius", "X", "fastest", "parameters", "predicted", "remark"}, .cells = {}};
+  Rows rows{{"rays", "disc radius", "X", "fastest", "parameters", "predicted", "remark"}};
   std::string here = words(list(choice, "choice"), "technique");
-  for (const ReportJson& cell : list(map, "cells")) {
-    const ReportJson& predicted = list(cell, "predicted");
+  for (const Json& cell : list(map, "cells")) {
+    const Json& predicted = list(cell, "predicted");
     const auto technique = technique_named(words(predicted, "technique"));
     const auto row = std::ranges::find(radii, number(cell, "disc_radius").value_or(0));
     const auto column = std::ranges::find(rays, number(cell, "rays").value_or(0));
@@ -80,16 +77,16 @@ std::string map_section(const ReportJson& report) {
                           seconds ? seconds_words(*seconds, number(predicted, "seconds_error")) : "",
                           framed ? "this workload" : ""});
     chart.cells[static_cast<std::size_t>(row - radii.begin())][static_cast<std::size_t>(column - rays.begin())] =
-        ZoneCell{*technique, rows.words(rows.cells.size() - 1), seconds ? seconds_label(*seconds) : "", framed};
+        ZoneCell{*technique, rows.last_words(), seconds ? seconds_label(*seconds) : "", framed};
   }
   std::string tips;
-  for (const ReportJson& tip : list(choice, "tips"))
+  for (const Json& tip : list(choice, "tips"))
     if (const std::string text = words(tip, "text"); !text.empty())
       tips += fmt::format("<li>{}</li>\n", xml_text(text));
-  return section_html(title,
-                      figure_html("the fastest technique by rays and radius",
-                                  finding_of(choice, map, here) + " This workload is framed.", zone_svg(chart), rows) +
-                          (tips.empty() ? "" : "<ul>\n" + tips + "</ul>\n"));
+  return section_html(
+      title, figure_html("the fastest technique by rays and radius",
+                         finding_of_map(choice, map, here) + " This workload is framed.", zone_svg(chart), rows) +
+                 (tips.empty() ? "" : "<ul>\n" + tips + "</ul>\n"));
 }
 
 }  // namespace detp::validate

@@ -1,17 +1,17 @@
-#include "page.hpp"
-
 #include <fmt/format.h>
 
+#include "detp/validate/picture/labels.hpp"
 #include "page_assets.hpp"
-#include "sections.hpp"
+#include "parts.hpp"
+#include "report.hpp"
 
 namespace detp::validate {
 namespace {
 
 /// JSON as text that ends no element and begins no comment.
-std::string json_in_html(const ReportJson& report) {
+std::string json_in_html(const Json& report) {
   std::string safe;
-  for (const char c : report.dump(1, ' ', false, ReportJson::error_handler_t::replace)) {
+  for (const char c : report.dump(1, ' ', false, Json::error_handler_t::replace)) {
     if (c == '<')
       safe += "\\u003c";
     else
@@ -39,11 +39,117 @@ std::string base64_of_hex(std::string_view hex) {
   return text;
 }
 
+/// A figure that is read first: what it is, the figure, and the rest.
+std::string card(const std::string& what, const std::string& figure, const std::string& rest) {
+  return fmt::format("<div class=\"card\"><dt>{}</dt><dd><strong>{}</strong> <span>{}</span></dd></div>\n",
+                     xml_text(what), xml_text(figure), xml_text(rest));
+}
+
+std::string technique_card(const Json& answer) {
+  if (words(answer, "technique").empty()) return card("Fastest technique", "not known", "stopped before the choice");
+  std::string rest = parameter_words(answer);
+  if (const auto threads = number(answer, "threads"))
+    rest += fmt::format("{}{:.0f} thread{}", rest.empty() ? "" : "; ", *threads, *threads == 1 ? "" : "s");
+  return card("Fastest technique", words(answer, "technique"), rest);
+}
+
+std::string seconds_card(const Json& answer) {
+  const auto predicted = number(answer, "predicted_seconds");
+  const auto measured = number(answer, "measured_seconds");
+  if (!predicted && !measured) return {};
+  const std::string prediction =
+      predicted ? "predicted: " + seconds_words(*predicted, number(answer, "predicted_seconds_error")) : "";
+  if (measured)
+    return card("Time of a run, measured", seconds_words(*measured, number(answer, "measured_spread")), prediction);
+  return card("Time of a run, predicted", seconds_words(*predicted, number(answer, "predicted_seconds_error")),
+              "not measured");
+}
+
+std::string accuracy_card(const Json& answer) {
+  const Json& accuracy = list(answer, "accuracy");
+  const auto seconds = number(accuracy, "seconds");
+  const std::string target = words(accuracy, "target");
+  if (!seconds) return {};
+  const Json& interval = list(accuracy, "seconds_interval");
+  std::string rest;
+  if (interval.size() == 2)
+    rest =
+        fmt::format("{} to {}; ", seconds_label(interval[0].get<double>()), seconds_label(interval[1].get<double>()));
+  if (const auto photons = number(accuracy, "photons"); photons && *photons > 0)
+    rest += count_words(*photons) + " photon paths; ";
+  rest += words(accuracy, "estimator");
+  if (const Json& error = list(accuracy, "error_interval"); error.size() == 2)
+    rest += fmt::format("; total error (noise and bias) {} to {}, 95 %", percent_label(error[0].get<double>()),
+                        percent_label(error[1].get<double>()));
+  if (accuracy.value("reached", true)) return card(fmt::format("{} costs", target), seconds_label(*seconds), rest);
+  return card(fmt::format("{} is out of reach; nearest", target),
+              number(accuracy, "error") ? percent_label(*number(accuracy, "error")) : "?",
+              fmt::format("in {}; {}", seconds_label(*seconds), words(accuracy, "estimator")));
+}
+
+/// Technique, parameters, seconds, and what the accuracy costs: the top of the page.
+std::string answer_section(const Json& report) {
+  const Json& answer = list(report, "answer");
+  std::string html = fmt::format("<header>\n<h1>Density estimation in <bdi>{}</bdi></h1>\n",
+                                 xml_text(words(list(report, "inputs"), "scene")));
+  if (report.value("stopped", false))
+    html +=
+        "<p class=\"warning\" role=\"note\"><strong>Partial.</strong> The work was stopped; the page has what was "
+        "known then.</p>\n";
+  html += "<dl class=\"cards\">\n" + technique_card(answer) + seconds_card(answer) + accuracy_card(answer) + "</dl>\n";
+  html += fmt::format("<p class=\"answer\">{}</p>\n", xml_text(words(answer, "text")));
+  for (const Json& warning : list(report, "warnings"))
+    if (warning.is_string())
+      html += fmt::format("<p class=\"warning\" role=\"note\"><strong>Warning:</strong> {}</p>\n",
+                          xml_text(warning.get<std::string>()));
+  return html + "</header>\n";
+}
+
+/// Machine, version, seed; each part's command and seconds.
+std::string origin_section(const Json& report) {
+  const Json& origin = list(report, "provenance");
+  const Json& inputs = list(answer_of(report, "choice"), "inputs");
+  Rows facts{{"what", "value"}};
+  const auto add = [&](const std::string& what, const std::string& value) {
+    if (!value.empty()) facts.cells.push_back({what, value});
+  };
+  const auto count = [&](const char* key) { return number(inputs, key) ? count_words(*number(inputs, key)) : ""; };
+  const auto length = [&](const char* key) {
+    return number(inputs, key) ? fmt::format("{:.4g}", *number(inputs, key)) : "";
+  };
+  add("processor", words(origin, "cpu"));
+  add("threads", number(origin, "threads") ? fmt::format("{:.0f}", *number(origin, "threads")) : "");
+  add("program", fmt::format("{} {}", words(origin, "program"), words(origin, "version")));
+  add("seed", number(origin, "seed") ? fmt::format("{:.0f}", *number(origin, "seed")) : "");
+  add("unit costs", words(answer_of(report, "choice"), "unit_costs"));
+  add("rays", count("rays"));
+  add("kind of rays", words(inputs, "field"));
+  add("discs", count("samples"));
+  add("disc radius d", length("disc_radius"));
+  add("distance between samples", length("sample_distance"));
+  add("dimension D of the samples", length("dimension"));
+  Rows parts{{"part", "command", "time", "forecast"}};
+  for (const Json& part : list(report, "parts")) {
+    const auto seconds = number(part, "seconds");
+    const auto forecast = number(part, "forecast_seconds");
+    parts.cells.push_back({words(part, "name"), words(part, "command"), seconds ? seconds_label(*seconds) : "not run",
+                           forecast ? seconds_label(*forecast) : ""});
+  }
+  std::string body = table_html("machine and inputs", facts) + table_html("parts of this page", parts);
+  if (const auto seconds = number(report, "seconds"))
+    body += paragraph(fmt::format(
+        "The page took {}; the forecast was {}. It has the whole answer as JSON, in the element with the "
+        "id \u201canswer\u201d.",
+        seconds_label(*seconds),
+        number(report, "forecast_seconds") ? seconds_label(*number(report, "forecast_seconds")) : "not made"));
+  return section_html("How this was made", body);
+}
+
 }  // namespace
 
-std::string page_html(const ReportJson& given) {
+std::string page_html(const Json& given) {
   // Names of files may be no valid UTF-8; what is printed as JSON is what is shown.
-  const ReportJson report = ReportJson::parse(given.dump(-1, ' ', false, ReportJson::error_handler_t::replace));
+  const Json report = Json::parse(given.dump(-1, ' ', false, Json::error_handler_t::replace));
   std::string html = fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'sha256-{}'; script-src "

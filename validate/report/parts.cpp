@@ -5,15 +5,14 @@
 #include <algorithm>
 
 #include "detp/validate/picture/labels.hpp"
-#include "detp/validate/picture/svg.hpp"
 
 namespace detp::validate {
 namespace {
 
-const ReportJson nothing;
-const ReportJson no_items = ReportJson::array();
+const Json nothing;
+const Json no_items = Json::array();
 
-const ReportJson& member(const ReportJson& json, std::string_view key) {
+const Json& member(const Json& json, std::string_view key) {
   if (!json.is_object()) return nothing;
   const auto found = json.find(std::string(key));
   return found == json.end() ? nothing : *found;
@@ -21,28 +20,28 @@ const ReportJson& member(const ReportJson& json, std::string_view key) {
 
 }  // namespace
 
-const ReportJson& answer_of(const ReportJson& report, std::string_view part) {
-  for (const ReportJson& one : list(report, "parts"))
+const Json& answer_of(const Json& report, std::string_view part) {
+  for (const Json& one : list(report, "parts"))
     if (words(one, "name") == part) return member(one, "answer");
   return nothing;
 }
 
-std::optional<double> number(const ReportJson& json, std::string_view key) {
-  const ReportJson& value = member(json, key);
+std::optional<double> number(const Json& json, std::string_view key) {
+  const Json& value = member(json, key);
   return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
 }
 
-std::string words(const ReportJson& json, std::string_view key) {
-  const ReportJson& value = member(json, key);
+std::string words(const Json& json, std::string_view key) {
+  const Json& value = member(json, key);
   return value.is_string() ? value.get<std::string>() : "";
 }
 
-const ReportJson& list(const ReportJson& json, std::string_view key) {
-  const ReportJson& value = member(json, key);
+const Json& list(const Json& json, std::string_view key) {
+  const Json& value = member(json, key);
   return value.is_structured() ? value : no_items;
 }
 
-std::string parameter_words(const ReportJson& candidate) {
+std::string parameter_words(const Json& candidate) {
   std::string text;
   for (const auto& [key, value] : list(candidate, "parameters").items()) {
     std::string name = key;
@@ -80,13 +79,18 @@ std::string count_words(double count) {
   return digits;
 }
 
-std::string Rows::words(std::size_t row) const {
-  std::string text = cells.at(row).at(0);
+std::string Rows::last_words() const {
+  const std::vector<std::string>& last = cells.back();
   std::string rest;
   for (std::size_t i = 1; i < head.size(); ++i)
-    if (const std::string& cell = cells[row].at(i); !cell.empty())
-      rest += fmt::format("{}{} {}", rest.empty() ? ": " : ", ", head[i], cell);
-  return text + rest;
+    if (!last.at(i).empty()) rest += fmt::format("{}{} {}", rest.empty() ? ": " : ", ", head[i], last[i]);
+  return last.at(0) + rest;
+}
+
+ChartPoint& Figure::point(std::size_t series, double x, double y) {
+  chart.points.push_back({.series = series, .x = x, .y = y, .value = said ? "" : rows.last_words()});
+  said = true;
+  return chart.points.back();
 }
 
 std::string table_html(const std::string& title, const Rows& rows) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "detp/validate/checkpoint/value_json.hpp"
+#include "detp/validate/checkpoint/checkpoint_file.hpp"
 #include "support/scratch_file.hpp"
 
 namespace detp::validate {
@@ -29,13 +29,11 @@ TEST_SUITE("long") {
   TEST_CASE("each observed value is known as well as asked, or says what is missing") {
     const FindingsTarget target{.relative_error = 0.1, .most_lines = 1e6};
     const FindingsUntil until = findings_until(small(2000, 1), target);
-    REQUIRE(until.findings.size() == until.refinements.size());
     CHECK_FALSE(until.stopped);
     REQUIRE(until.findings.size() > 40);
     std::size_t reached = 0;
-    for (std::size_t i = 0; i < until.findings.size(); ++i) {
-      const Finding& finding = until.findings[i];
-      const Refinement& one = until.refinements[i];
+    for (const Finding& finding : until.findings) {
+      const Refinement& one = finding.refinement.value();
       CAPTURE(finding.id);
       CHECK(one.reached == (one.relative_error <= target.relative_error));
       reached += one.reached ? 1 : 0;
@@ -58,12 +56,11 @@ TEST_SUITE("long") {
 
   TEST_CASE("limits of lines hold") {
     const FindingsUntil few =
-        findings_until(small(2000, 2), {.relative_error = 1e-4, .most_lines = 20'000}, {}, nullptr, {}, lines_alone());
+        findings_until(small(2000, 2), {.relative_error = 1e-4, .most_lines = 20'000}, lines_alone());
     for (const Finding& finding : few.findings)
       if (finding.id == "sphere-hit-probability") CHECK(finding.lines <= 20'000);
-    const FindingsUntil many =
-        findings_until(small(2000, 2), {.relative_error = 0.9, .least_lines = 100'000, .most_lines = 200'000}, {},
-                       nullptr, {}, lines_alone());
+    const FindingsUntil many = findings_until(
+        small(2000, 2), {.relative_error = 0.9, .least_lines = 100'000, .most_lines = 200'000}, lines_alone());
     for (const Finding& finding : many.findings)
       if (finding.id == "sphere-hit-probability") CHECK(finding.lines >= 100'000);
     std::stop_source stop;
@@ -79,16 +76,15 @@ TEST_SUITE("statistical") {
     constexpr int runs = 200;
     int wrong = 0;
     for (std::uint64_t seed = 1; seed <= runs; ++seed) {
-      const FindingsUntil until = findings_until(small(500, 7000 + seed), {.relative_error = 0.05, .most_lines = 1e6},
-                                                 {}, nullptr, {}, lines_alone());
+      const FindingsUntil until =
+          findings_until(small(500, 7000 + seed), {.relative_error = 0.05, .most_lines = 1e6}, lines_alone());
       bool right = true;
-      for (std::size_t i = 0; i < until.findings.size(); ++i) {
-        const Finding& finding = until.findings[i];
+      for (const Finding& finding : until.findings) {
         if (!finding.id.starts_with("sphere-hit") && !finding.id.starts_with("disc-hit") &&
             !finding.id.starts_with("rays-in"))
           continue;
         const double away = std::abs(finding.predictions.back().value / finding.observed.mean - 1);
-        right = right && away <= until.refinements[i].relative_error;
+        right = right && away <= finding.refinement->relative_error;
       }
       wrong += right ? 0 : 1;
     }
@@ -107,15 +103,16 @@ TEST_SUITE("claims") {
         [](const Experiment&) { return 1.0; },
         1,
         true};
-    const FindingsUntil until = findings_until(small(100, 1), {.most_lines = 400}, {}, nullptr, {}, {&dark, 1});
-    REQUIRE(until.refinements.size() == 1);
-    CHECK_FALSE(until.refinements[0].reached);
-    CHECK(std::isinf(until.refinements[0].relative_error));
-    CHECK(std::isinf(until.refinements[0].more_lines.value()));
+    const FindingsUntil until = findings_until(small(100, 1), {.most_lines = 400}, {&dark, 1});
+    REQUIRE(until.findings.size() == 1);
+    const Refinement one = until.findings[0].refinement.value();
+    CHECK_FALSE(one.reached);
+    CHECK(std::isinf(one.relative_error));
+    CHECK(std::isinf(one.more_lines.value()));
     CHECK(until.findings[0].lines == 400);
     // The first test may err with (1 - 0.95) 2/3; a test that had decided would leave less.
-    CHECK(until.refinements[0].share_bound.value() >= -std::log(0.05 * 2 / 3) / 400);
-    CHECK(until.refinements[0].share_bound.value() <= -std::log(0.05 * 2 / 9) / 400);
+    CHECK(one.share_bound.value() >= -std::log(0.05 * 2 / 3) / 400);
+    CHECK(one.share_bound.value() <= -std::log(0.05 * 2 / 9) / 400);
   }
 
   TEST_CASE("the second test of a target may err less than the first") {
@@ -131,12 +128,12 @@ TEST_SUITE("claims") {
         [](const Experiment&) { return 1.0; },
         1,
         true};
-    const FindingsUntil until = findings_until(small(100, 1), {.relative_error = 0.1}, {}, nullptr, {}, {&uneven, 1});
-    REQUIRE(until.refinements.size() == 1);
-    CHECK(until.refinements[0].reached);
-    CHECK(until.refinements[0].relative_error ==
-          doctest::Approx(interval_width(0.05 * 2 / 9, 1, until.findings[0].batches) *
-                          until.findings[0].observed.standard_error));
+    const FindingsUntil until = findings_until(small(100, 1), {.relative_error = 0.1}, {&uneven, 1});
+    REQUIRE(until.findings.size() == 1);
+    const Refinement one = until.findings[0].refinement.value();
+    CHECK(one.reached);
+    CHECK(one.relative_error == doctest::Approx(interval_width(0.05 * 2 / 9, 1, until.findings[0].batches) *
+                                                until.findings[0].observed.standard_error));
   }
 
   TEST_CASE("a standard error that is not known survives a checkpoint") {

@@ -18,13 +18,6 @@ std::string condition_text(const sim::Threshold& threshold) {
 
 }  // namespace
 
-std::string effects_on(const std::vector<sim::EffectReport>& effects) {
-  std::string on;
-  for (const sim::EffectReport& report : effects)
-    if (report.on) on += (on.empty() ? "" : ", ") + std::string(report.effect->name);
-  return on;
-}
-
 std::string effects_line(const std::vector<sim::EffectReport>& effects) {
   std::string on;
   std::string off;

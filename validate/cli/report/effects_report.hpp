@@ -17,9 +17,6 @@ using validate::effect_cells;
 using validate::effect_columns;
 using validate::to_json;
 
-/// "finite paths, surface samples"; empty if none is on.
-[[nodiscard]] std::string effects_on(const std::vector<sim::EffectReport>& effects);
-
 /// "effects   on: finite paths (0.3, differs from 1 by more than 0.05); off: facing, uneven rays (close)": value and
 /// threshold of those that are on; whether those that are off are close to their threshold; whether one was switched by hand.
 [[nodiscard]] std::string effects_line(const std::vector<sim::EffectReport>& effects);

@@ -6,19 +6,6 @@
 
 namespace detp::cli {
 
-std::string shell_word(std::string_view word) {
-  constexpr std::string_view harmless = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./@%:,=+-";
-  if (!word.empty() && word.find_first_not_of(harmless) == std::string_view::npos) return std::string(word);
-  std::string quoted = "'";
-  for (const char c : word) {
-    if (c == '\'')
-      quoted += "'\\''";
-    else
-      quoted += c;
-  }
-  return quoted + "'";
-}
-
 std::string number_of_times(double ratio) {
   return ratio >= 1000 && ratio < 1e6 ? fmt::format("{:.0f} times", ratio) : fmt::format("{:.3g} times", ratio);
 }

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <string>
-#include <string_view>
+
+#include "detp/validate/base/json.hpp"
 
 /// Words: for a shell, and for ratios.
 namespace detp::cli {
 
-/// The word as a POSIX shell takes it: as it is, or in single quotes if a character of it could mean something else.
-[[nodiscard]] std::string shell_word(std::string_view word);
+using validate::shell_word;
 
 /// How much longer something takes, by its time over that of another: "30 % longer", "2.4 times as long", "as long". With the name
 /// of the other: "30 % longer than grid".

@@ -5,7 +5,7 @@
 #include <regex>
 #include <set>
 
-#include "detp/validate/report/page.hpp"
+#include "detp/validate/report/report.hpp"
 #include "support/attempts.hpp"
 #include "support/command.hpp"
 #include "support/xml.hpp"
@@ -17,7 +17,7 @@ const std::string small_report = "report @cornell --samples 300 --rays 2000 --qu
 
 /// Replaces each text in the answer by what `text_of` makes of it, except names that decide what is drawn.
 template <class TextOf>
-void replace_texts(validate::ReportJson& json, const TextOf& text_of, const std::string& key = "") {
+void replace_texts(validate::Json& json, const TextOf& text_of, const std::string& key = "") {
   static const std::set<std::string> kept{"name", "technique", "estimator", "verdict"};
   if (json.is_structured()) {
     for (auto& [inner, value] : json.items()) replace_texts(value, text_of, json.is_object() ? inner : key);
@@ -117,7 +117,7 @@ TEST_SUITE("end to end") {
     const ScratchFolder folder;
     const std::string page = folder.path("report.html");
     const Finished finished = detp(small_report + page + " --format json");
-    const auto answer = validate::ReportJson::parse(finished.out);
+    const auto answer = validate::Json::parse(finished.out);
     const std::vector<std::string> pieces{
         "<",   ">",        "\"",  "'",    "&",     "</script>", "<script>alert(1)</script>",
         "-->", "<!--",     "]]>", "\\",   "\x01",  "\xff\xfe",  "\u2028",
@@ -130,7 +130,7 @@ TEST_SUITE("end to end") {
         return numbers.try_emplace(text, numbers.size()).first->second;
       };
       std::vector<std::string> hostile_texts;
-      validate::ReportJson hostile = answer;
+      validate::Json hostile = answer;
       replace_texts(hostile, [&](const std::string& original) {
         const std::size_t number = number_of(original);
         if (number == hostile_texts.size()) {
@@ -141,7 +141,7 @@ TEST_SUITE("end to end") {
         return hostile_texts[number];
       });
       const std::string html = validate::page_html(hostile);
-      validate::ReportJson harmless = answer;
+      validate::Json harmless = answer;
       replace_texts(harmless, [&](const std::string& original) { return "x" + std::to_string(number_of(original)); });
       const std::string expected = structure_of(validate::page_html(harmless));
       const bool same = structure_of(html) == expected;
@@ -152,9 +152,9 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("an empty answer makes a page, too") {
-    const std::string html = validate::page_html(validate::ReportJson::object());
+    const std::string html = validate::page_html(validate::Json::object());
     CHECK(count_of(html, "<h2>") == 7);
-    const bool same = html == validate::page_html(validate::ReportJson::object());
+    const bool same = html == validate::page_html(validate::Json::object());
     CHECK(same);
   }
 }
