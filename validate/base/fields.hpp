@@ -77,6 +77,15 @@ struct Field {
     field.in_json = false;
     return field;
   }
+  /// Left out, instead of null, where the answer has no value.
+  [[nodiscard]] Field where_known() const {
+    Field field = *this;
+    field.value = [of = value](const Answer& answer) {
+      Json one = of(answer);
+      return one.is_null() ? left_out() : one;
+    };
+    return field;
+  }
   /// An interval [low, high], as "noise_low" and "noise_high".
   [[nodiscard]] Field as_interval(const std::string& of) const {
     return in({{of + "_low", "/0"}, {of + "_high", "/1"}});

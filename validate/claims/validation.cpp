@@ -146,7 +146,7 @@ Field<Claim> of_refinement(std::string name, std::string unit, std::string meani
 }
 
 /// Of a claim's candidate: the last columns.
-const Fields<Claim>& candidate_fields() {
+const Fields<Claim>& searched_fields() {
   static const Fields<Claim> fields{{"technique", "", "null if the claim is about lines alone",
                                      [](const Claim& claim) { return words_or_null(claim.technique); }},
                                     {"parameters", "", "null if the claim is about several candidates or none",
@@ -198,7 +198,7 @@ const Fields<Claim>& claim_fields() {
 std::vector<FieldText> validate_fields() {
   std::vector<FieldText> texts = describe_fields(claim_fields());
   for (const auto& more :
-       {describe_fields(candidate_fields()), describe_fields(summary_fields()), describe_fields(deviation_fields())})
+       {describe_fields(searched_fields()), describe_fields(summary_fields()), describe_fields(deviation_fields())})
     texts.insert(texts.end(), more.begin(), more.end());
   return texts;
 }
@@ -247,7 +247,7 @@ Json json_of(const ValidateAnswer& answer) {
   json["claims"] = Json::array();
   for (const Claim& claim : answer.shown) {
     json["claims"].push_back(json_of(claim_fields(), claim));
-    json["claims"].back().update(json_of(candidate_fields(), claim));
+    json["claims"].back().update(json_of(searched_fields(), claim));
   }
   if (!answer.sweep) return json;
   json["sweep"] = {{"points", answer.sweep->points},
@@ -260,7 +260,7 @@ Json json_of(const ValidateAnswer& answer) {
 }
 
 Columns validate_columns() {
-  return with_new(workload_columns() + columns_of(claim_fields()) + effect_columns() + columns_of(candidate_fields()),
+  return with_new(workload_columns() + columns_of(claim_fields()) + effect_columns() + columns_of(searched_fields()),
                   columns_of(deviation_fields()));
 }
 
@@ -271,7 +271,7 @@ std::vector<Json> validate_rows(const ValidateAnswer& answer) {
   for (const Claim& claim : answer.shown) {
     Json& row = rows.emplace_back(shared);
     row.update(cells_of(claim_fields(), claim));
-    row.update(cells_of(candidate_fields(), claim));
+    row.update(cells_of(searched_fields(), claim));
   }
   if (answer.sweep)
     for (const Deviation& deviation : answer.sweep->deviations) rows.push_back(cells_of(deviation_fields(), deviation));

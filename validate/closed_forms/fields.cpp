@@ -147,8 +147,8 @@ const Fields<Answer>& answer_fields() {
     add({One("parameters", "", "of the technique", [](const Answer& one) { return to_json(one.candidate); })
              .in_json_alone(),
          One("form", "", "published: the paper's; corrected: ours", [](const Answer& one) { return name(one.form); })});
-    add(fields_of_optional(stop_fields(), &Answer::stops));
-    add(fields_of_optional(index_fields(), &Answer::index));
+    add(fields_of_part<Answer>(stop_fields(), &Answer::stops));
+    add(fields_of_part<Answer>(index_fields(), &Answer::index));
     add({One("spheres", "", "of a cache, or the levels of a hierarchy", spheres_json).in_json_alone()});
     add(time_fields());
     add({One("counts", "", "expected operations of a search", counts_json).as_counts("")});
