@@ -2,7 +2,7 @@
 // and read again.
 
 #include "detp/sim/files/file_error.hpp"
-#include "detp/validate/base/digest.hpp"
+#include "detp/validate/base/json.hpp"
 #include "detp/validate/sweep/sweep.hpp"
 #include "scratch.hpp"
 

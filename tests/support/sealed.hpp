@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "detp/validate/base/digest.hpp"
+#include "detp/validate/base/json.hpp"
 
 /// Files with a checksum, altered on purpose.
 namespace detp::support {

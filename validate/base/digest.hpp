@@ -6,11 +6,9 @@
 #include <cstdint>
 #include <cstring>
 #include <glm/vec3.hpp>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
-/// Tell whether two inputs are the same, and whether a file that detp keeps was altered.
 namespace detp::validate {
 
 /// Tells whether two inputs are the same, without keeping them: FNV-1a, 64 bits.
@@ -36,16 +34,5 @@ class Digest {
 
   std::uint64_t state_ = 0xcbf29ce484222325ULL;
 };
-
-/// 16 hexadecimal digits of the contents: of their names and values, not of their layout or the order of names.
-template <class... Contents>
-[[nodiscard]] std::string checksum(const Contents&... contents) {
-  Digest digest;
-  const auto add = [&](const nlohmann::json& content) {
-    digest.add(std::string_view(content.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
-  };
-  (add(contents), ...);
-  return digest.text();
-}
 
 }  // namespace detp::validate

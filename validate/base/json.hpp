@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "digest.hpp"
+
 /// JSON and names of columns: what answers are written with.
 namespace detp::validate {
 
@@ -65,6 +67,17 @@ template <class T>
 template <class T>
 [[nodiscard]] T from_json_bytes(const std::string& bytes) {
   return nlohmann::json::from_cbor(bytes).get<T>();
+}
+
+/// 16 hexadecimal digits of the contents: of their names and values, not of their layout or the order of names.
+template <class... Contents>
+[[nodiscard]] std::string checksum(const Contents&... contents) {
+  Digest digest;
+  const auto add = [&](const nlohmann::json& content) {
+    digest.add(std::string_view(content.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
+  };
+  (add(contents), ...);
+  return digest.text();
 }
 
 }  // namespace detp::validate

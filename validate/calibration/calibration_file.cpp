@@ -13,7 +13,7 @@
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/input_file.hpp"
 #include "detp/sim/files/output_file.hpp"
-#include "detp/validate/base/digest.hpp"
+#include "detp/validate/base/json.hpp"
 #include "detp/validate/base/json.hpp"
 
 namespace detp::validate {
