@@ -81,6 +81,23 @@ TEST_SUITE("end to end") {
     CHECK(detp("--help all").code == 0);
   }
 
+  TEST_CASE("--help fields explains every key of a command's JSON") {
+    const std::string numbers = " --samples 1000 --rays 2000 --disc-radius 0.02 --scene-side 2";
+    for (const std::string& line :
+         {"model" + numbers, "choose" + numbers, std::string("choose @cornell --rays 2000 --ranks 2"),
+          std::string("choose @cornell --rays 2000 --analyze"), std::string("run @cornell --rays 2000"),
+          std::string("run @cornell --target-error 60%"), std::string("run @cornell --estimator gather --paths 2"),
+          "validate --experiments lines" + numbers, std::string("scene @cornell --rays 2000"),
+          std::string("accuracy @cornell --target-noise 20% --effort quick"),
+          std::string("bench @cornell --rays 1000 --disc-radius 4% --repeat 1 --techniques grid")}) {
+      CAPTURE(line);
+      const std::string help = detp(line.substr(0, line.find(' ')) + " --help fields").out;
+      for (const auto& [key, value] : result_of(line).items())
+        if (key != "schema" && key != "inputs" && key != "provenance")
+          CHECK_MESSAGE(help.find("\n  " + key + " ") != std::string::npos, key);
+    }
+  }
+
   TEST_CASE("detp alone shows every command, a line each, and an example that works") {
     const Finished alone = detp("");
     CHECK(alone.code == 0);
