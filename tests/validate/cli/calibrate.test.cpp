@@ -85,8 +85,8 @@ TEST_SUITE("bad input") {
     const ScratchFolder folder;
     const std::string path = folder.path("cache/detp/calibration.json");
     validate::Calibration calibration;
-    calibration.plain.costs = validate::built_in_unit_costs(Engine::plain);
-    calibration.simd.costs = validate::built_in_unit_costs();
+    calibration.plain = validate::built_in_unit_costs(Engine::plain);
+    calibration.simd = validate::built_in_unit_costs();
     validate::write_calibration(path, calibration);
     Json foreign = Json::parse(content_of(path));
     foreign["key"]["cpu"] = "another";
@@ -122,8 +122,8 @@ TEST_SUITE("bad input") {
   TEST_CASE("choose and run warn of a doubtful calibration, in one line") {
     const ScratchFolder folder;
     validate::Calibration calibration;
-    calibration.plain.costs = validate::built_in_unit_costs(Engine::plain);
-    calibration.simd.costs = validate::built_in_unit_costs();
+    calibration.plain = validate::built_in_unit_costs(Engine::plain);
+    calibration.simd = validate::built_in_unit_costs();
     const auto errors_of = [&](const std::string& command) {
       const std::string path = folder.file("mine.json", validate::calibration_text(calibration));
       const Finished finished = detp(command + " --calibration " + path);

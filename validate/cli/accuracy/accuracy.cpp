@@ -18,7 +18,6 @@
 #include "detp/sim/photons/light_notes.hpp"
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
-#include "detp/validate/calibration/costs_in_use.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/options/value_lists.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
