@@ -28,7 +28,7 @@ int main() {
 
   // What an operation costs on this machine: as detp calibrate stored it, or measured now, roughly.
   const auto stored = detp::validate::stored_calibration();
-  const detp::CostTable costs = stored ? stored->simd : detp::validate::calibrate({.seconds = 1}).simd.costs;
+  const detp::CostTable costs = stored ? stored->simd : detp::validate::calibrate({.seconds = 1}).simd;
 
   trace_photons();
   // Technique and parameters, chosen by a pilot; the samples, sorted once.

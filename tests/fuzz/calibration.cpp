@@ -8,7 +8,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace detp::validate;
   try {
-    const StoredCalibration stored =
+    const Calibration stored =
         parse_calibration(std::string(detp::fuzz::text_of(data, size)), "calibration.json");
     check(stored.simd);
     check(stored.plain);
@@ -17,8 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Calibration again;
     again.left_out_median_error = stored.left_out_median_error;
     again.processor_share = stored.processor_share;
-    again.simd.costs = stored.simd;
-    again.plain.costs = stored.plain;
+    again.simd = stored.simd;
+    again.plain = stored.plain;
     const std::string text = calibration_text(again);
     if (!difference(parse_calibration(text, "calibration.json").key, this_machine()).empty()) std::abort();
   } catch (const detp::sim::FileError&) {

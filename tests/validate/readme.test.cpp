@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "detp/validate/regret/regret_summary.hpp"
+#include "detp/validate/regret/regret_answer.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "support/pages.hpp"
 

@@ -90,13 +90,14 @@ TEST_SUITE("known answer") {
                             .rays = 2000};
     const std::vector<BenchWorkload> workloads{one, one, one};
     std::stop_source source;
-    const BenchOptions options{.techniques = {Technique::brute_force},
-                               .embree_modes = {EmbreeMode{}},
-                               .repeats = 1,
-                               .stop = source.get_token(),
-                               .progress = [&](const sim::Phase& phase) {
-                                 if (phase.from > 0.7) source.request_stop();
-                               }};
+    const BenchOptions options{.race = {.repeats = 1,
+                                        .stop = source.get_token(),
+                                        .progress =
+                                            [&](const sim::Phase& phase) {
+                                              if (phase.from > 0.7) source.request_stop();
+                                            }},
+                               .techniques = {Technique::brute_force},
+                               .embree_modes = {EmbreeMode{}}};
     const BenchResult result = run_bench(workloads, options);
     CHECK(result.stopped);
     CHECK(result.done == 2);
@@ -114,7 +115,7 @@ TEST_SUITE("statistical") {
                                                 .samples = 5000,
                                                 .disc_radius = Length{0.02},
                                                 .rays = 20'000}};
-    const BenchOptions options{.techniques = {}, .embree_modes = {EmbreeMode{}}, .repeats = 1};
+    const BenchOptions options{.race = {.repeats = 1}, .embree_modes = {EmbreeMode{}}};
     work_of([&] { static_cast<void>(run_bench(workloads, options)); });
   }
 

@@ -196,6 +196,14 @@ template <class Answer>
   return json;
 }
 
+/// An array with an object for each row.
+template <class Row>
+[[nodiscard]] Json rows_json(const Fields<Row>& fields, const std::vector<Row>& rows) {
+  Json json = Json::array();
+  for (const Row& row : rows) json.push_back(json_of(fields, row));
+  return json;
+}
+
 template <class Answer>
 [[nodiscard]] Columns columns_of(const Fields<Answer>& fields) {
   Columns columns;

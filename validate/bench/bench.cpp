@@ -19,15 +19,19 @@
 namespace detp::validate {
 namespace {
 
+/// A technique of ours is left out if its predicted time exceeds this many times our shortest predicted time.
+constexpr double hopeless = 30;
+/// The largest product of rays and discs for which brute force determines the right hits.
+constexpr double checkable = 2e7;
+
 struct Contenders {
   std::vector<Candidate> candidates;  ///< shortest predicted time first; empty if none fits in memory
   double hits = 0;                    ///< expected number of hits, by the closed forms
 };
 
 /// The exact techniques, or only the exact techniques in `named` if it is not empty. Each has the parameters with the
-/// shortest predicted time. Techniques without a closed form come last, with default parameters. Leaves out candidates
-/// whose predicted time exceeds `hopeless` times that of the first.
-Contenders contenders(const Workload& workload, std::span<const Technique> named, double hopeless) {
+/// shortest predicted time. Techniques without a closed form come last, with default parameters. Hopeless ones are left out.
+Contenders contenders(const Workload& workload, std::span<const Technique> named) {
   const auto wanted = [&](Technique technique) {
     return named.empty() || std::find(named.begin(), named.end(), technique) != named.end();
   };
@@ -61,7 +65,7 @@ class Benchmark {
           if (i == 0 || !same_but_rays(workloads_[i - 1], workloads_[i])) hits_per_ray_ = 0;
           return run(workloads_[i], progress);
         },
-        options_.stop, options_.progress);
+        options_.race.stop, options_.race.progress);
     result.entries = std::move(entries_);
     return result;
   }
@@ -84,9 +88,9 @@ class Benchmark {
 
   std::string run(const BenchWorkload& workload, const sim::ReportPhase& progress) {
     if (std::string why = too_many_hits(hits_per_ray_ * workload.rays); !why.empty()) return why;
-    const Job job = make_bench_job(workload, options_.seed, options_.stop,
+    const Job job = make_bench_job(workload, options_.seed, options_.race.stop,
                                    part(progress, workload, "making rays", 0, share_of_job));
-    const Contenders ours = contenders(job.workload(), options_.techniques, options_.hopeless);
+    const Contenders ours = contenders(job.workload(), options_.techniques);
     if (ours.candidates.empty()) return "none of the techniques named fits in memory on it";
     if (hits_per_ray_ == 0)
       if (std::string why = too_many_hits(ours.hits); !why.empty()) {
@@ -100,21 +104,18 @@ class Benchmark {
   void run_races(const BenchWorkload& workload, const Job& job, const std::vector<Candidate>& ours,
                  const sim::ReportPhase& progress) {
     if (progress) progress({"right hits", 0, 0});
-    const RightHits right = right_hits(job, ours.front(), options_.checkable, options_.stop);
+    const RightHits right = right_hits(job, ours.front(), checkable, options_.race.stop);
     const auto sum = std::accumulate(right.hits.begin(), right.hits.end(), std::uint64_t{0});
     hits_per_ray_ = static_cast<double>(sum) / workload.rays;
     std::vector<Competitor> competitors(ours.begin(), ours.end());
     competitors.insert(competitors.end(), options_.embree_modes.begin(), options_.embree_modes.end());
-    if (options_.costs && sim::PilotedDiscs::can_pilot(job.problem())) competitors.emplace_back(OwnChoice{});
+    if (options_.race.costs && sim::PilotedDiscs::can_pilot(job.problem())) competitors.emplace_back(OwnChoice{});
     double before = 0;
     for (const int threads : options_.threads) {
       const double after = before + 1.0 / static_cast<double>(options_.threads.size());
-      const RaceOptions how{.repeats = options_.repeats,
-                            .most_seconds = options_.most_seconds,
-                            .threads = threads,
-                            .costs = options_.costs.value_or(CostTable{}),
-                            .stop = options_.stop,
-                            .progress = sim::part_of(progress, before, after)};
+      RaceOptions how = options_.race;
+      how.threads = threads;
+      how.progress = sim::part_of(progress, before, after);
       before = after;
       Race found = race(job, right, *peers_.at(threads), competitors, how);
       const bool complete = found.complete;
@@ -150,14 +151,11 @@ const CompetitorResult* BenchEntry::choice() const {
   return nullptr;
 }
 
-double BenchEntry::ratio() const { return embree_over(best(true)); }
-
-double BenchEntry::choice_ratio() const { return embree_over(choice()); }
-
-double BenchEntry::embree_over(const CompetitorResult* ours) const {
+std::optional<double> BenchEntry::ratio(Ours ours) const {
+  const CompetitorResult* own = ours == Ours::best ? best(true) : choice();
   const CompetitorResult* peer = best(false);
-  if (!race.complete || ours == nullptr || peer == nullptr) return 0;
-  return peer->median_seconds() / ours->median_seconds();
+  if (!race.complete || own == nullptr || peer == nullptr) return std::nullopt;
+  return peer->median_seconds() / own->median_seconds();
 }
 
 BenchResult run_bench(std::span<const BenchWorkload> workloads, const BenchOptions& options) {

@@ -74,7 +74,7 @@ Json embree_json(const AgainstEmbree& summary, std::span<const BenchEntry> entri
     json["choice"] = {{"races", chosen->races},
                       {"geometric_mean", chosen->geometric_mean},
                       {"worst", chosen->worst},
-                      {"kept", kept_by_choice(entries, summary.threads)}};
+                      {"kept", chosen->kept}};
   return json;
 }
 
@@ -109,21 +109,21 @@ BenchAnswer answer(const BenchRequest& request, const std::stop_token& stop, con
                    const Notice& notice) {
   const bool thorough = request.effort == BenchEffort::thorough;
   BenchAnswer answer{.set = bench_set(request.effort, request.axes, request.scene_folder),
-                     .options = {.techniques = request.techniques,
+                     .options = {.race = {.repeats = request.repeats,
+                                          .most_seconds = thorough ? 2.0 : 0.5,
+                                          .stop = stop,
+                                          .progress = progress},
+                                 .techniques = request.techniques,
                                  .embree_modes = request.embree_modes,
                                  .threads = threads_of(request.threads),
-                                 .repeats = request.repeats,
-                                 .most_seconds = thorough ? 2.0 : 0.5,
                                  .most_hits = request.most_hits.value_or(thorough ? 5e6 : 1e6),
-                                 .seed = request.seed,
-                                 .stop = stop,
-                                 .progress = progress}};
+                                 .seed = request.seed}};
   for (const std::string& instruction_set : request.instruction_sets) {
     answer.options.instruction_set = instruction_set;
     if (request.costs) {
       std::optional<sim::stream::OnlyInstructionSet> used;  // whose unit costs are looked for
       if (!instruction_set.empty()) used.emplace(instruction_set);
-      answer.options.costs = costs_in_use(*request.costs, notice).simd;
+      answer.options.race.costs = costs_in_use(*request.costs, notice).simd;
     }
     answer.benches.push_back(run_bench(answer.set.workloads, answer.options));
   }
@@ -163,11 +163,7 @@ const Fields<BenchRow>& bench_row_fields() {
 const Fields<BenchAnswer>& bench_fields() {
   static const Fields<BenchAnswer> fields{
       {"rows", "", "a row for each competitor in each race",
-       [](const BenchAnswer& answer) {
-         Json rows = Json::array();
-         for (const BenchRow& row : bench_rows(answer)) rows.push_back(json_of(bench_row_fields(), row));
-         return rows;
-       }},
+       [](const BenchAnswer& answer) { return rows_json(bench_row_fields(), bench_rows(answer)); }},
       {"summary", "", "Embree's seconds over ours, over all races, and whether hits agree", all_races_json},
       {"skipped", "", "workloads that were not raced, and why",
        [](const BenchAnswer& answer) { return skipped_json(answer.benches.front()); }},
@@ -180,32 +176,24 @@ std::vector<FieldText> describe_bench() {
 }
 
 std::optional<AgainstEmbree> against_embree(std::span<const BenchEntry> entries, int threads, Ours ours) {
-  AgainstEmbree summary{.threads = threads, .worst_entry = 0};
+  AgainstEmbree summary{.threads = threads};
   double logarithms = 0;
+  double kept = 0;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const double ratio = ours == Ours::best ? entries[i].ratio() : entries[i].choice_ratio();
-    if (entries[i].threads != threads || !(ratio > 0)) continue;
-    if (summary.races == 0 || ratio < summary.worst) {
-      summary.worst = ratio;
+    const std::optional<double> ratio = entries[i].ratio(ours);
+    if (entries[i].threads != threads || !ratio) continue;
+    if (summary.races == 0 || *ratio < summary.worst) {
+      summary.worst = *ratio;
       summary.worst_entry = i;
     }
     ++summary.races;
-    logarithms += std::log(ratio);
+    logarithms += std::log(*ratio);
+    kept += std::log(*ratio / entries[i].ratio().value());
   }
   if (summary.races == 0) return std::nullopt;
   summary.geometric_mean = std::exp(logarithms / static_cast<double>(summary.races));
+  summary.kept = std::exp(kept / static_cast<double>(summary.races));
   return summary;
-}
-
-double kept_by_choice(std::span<const BenchEntry> entries, int threads) {
-  double logarithms = 0;
-  double races = 0;
-  for (const BenchEntry& entry : entries)
-    if (entry.threads == threads && entry.choice_ratio() > 0) {
-      logarithms += std::log(entry.choice_ratio() / entry.ratio());
-      ++races;
-    }
-  return races > 0 ? std::exp(logarithms / races) : 0;
 }
 
 bool do_own_hits_agree(std::span<const BenchEntry> entries) {

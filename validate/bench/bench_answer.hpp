@@ -7,7 +7,7 @@
 
 #include "bench.hpp"
 #include "detp/validate/base/fields.hpp"
-#include "detp/validate/calibration/costs_in_use.hpp"
+#include "detp/validate/calibration/calibration_file.hpp"
 
 /// Our techniques and Embree on the same work: `detp bench`.
 namespace detp::validate {
@@ -36,25 +36,20 @@ struct BenchAnswer {
 [[nodiscard]] BenchAnswer answer(const BenchRequest& request, const std::stop_token& stop = {},
                                  const sim::ReportPhase& progress = {}, const Notice& notice = {});
 
-/// Summary of many races: ratios of Embree's shortest median time to our shortest median time.
+/// Summary of many races: ratios of Embree's shortest median time to ours.
 struct AgainstEmbree {
   int threads = 1;
   std::size_t races = 0;
   double geometric_mean = 0;
   double worst = 0;             ///< the smallest ratio
   std::size_t worst_entry = 0;  ///< index of the entry with the smallest ratio
+  /// the share of what our best technique gains on Embree: geometric mean of its time over ours
+  double kept = 1;
 };
-
-/// Whose times are compared with Embree's.
-enum class Ours { best, choice };
 
 /// Summary over the complete races with `threads` threads; nothing if there is none, or if our choice did not take part.
 [[nodiscard]] std::optional<AgainstEmbree> against_embree(std::span<const BenchEntry> entries, int threads,
                                                           Ours ours = Ours::best);
-
-/// The share of what our best technique gains on Embree that our choice gains: geometric mean over these races of the time
-/// of the best over that of the choice, with choosing. 0 if there are none.
-[[nodiscard]] double kept_by_choice(std::span<const BenchEntry> entries, int threads);
 
 /// True if all our techniques found the right hits in all races.
 [[nodiscard]] bool do_own_hits_agree(std::span<const BenchEntry> entries);

@@ -1,4 +1,4 @@
-#include "race.hpp"
+#include "bench.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -9,13 +9,13 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/choice/pilot.hpp"
 #include "detp/validate/measure/rounds.hpp"
-#include "detp/validate/measure/run_time.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
 namespace detp::validate {
 namespace {
 
 constexpr int least_rounds = 3;
+constexpr std::size_t finalists_of_a_side = 2;
 
 class RaceRunner {
  public:
@@ -49,7 +49,7 @@ class RaceRunner {
     constexpr double first_round = 0.8;  // expected share of the time of the race
     const double step = times.empty()
                             ? first_round / static_cast<double>(race_.results.size())
-                            : (1 - first_round) / (2.0 * options_.finalists * std::max(1, options_.repeats - 1));
+                            : (1 - first_round) / (2.0 * finalists_of_a_side * std::max(1, options_.repeats - 1));
     const double before = std::exchange(share_, std::min(1.0, share_ + step));
     options_.progress({technique_of(next), before, share_, 0,
                        times.empty() ? watch_.seconds() / std::max(1.0, before / step) : times.front()});
@@ -73,7 +73,7 @@ class RaceRunner {
     try {
       Choice choice = choose(
           {.problem = &problem, .purpose = Purpose::one_search, .threads = options_.threads, .stop = options_.stop},
-          options_.costs);
+          options_.costs.value());
       how.threads = choice.best().threads;
       const sim::Outcome outcome = sim::run(problem, *build_choice(choice, problem, how), how);
       return record_run(result, outcome, time.seconds());
@@ -104,7 +104,7 @@ class RaceRunner {
     }
     for (std::vector<std::size_t>* side : {&ours, &embree}) {
       std::ranges::stable_sort(*side, {}, [&](std::size_t i) { return times[i].front(); });
-      side->resize(std::min(side->size(), static_cast<std::size_t>(options_.finalists)));
+      side->resize(std::min(side->size(), finalists_of_a_side));
       for (const std::size_t i : *side) chosen[i] = true;
     }
     return chosen;

@@ -1,4 +1,4 @@
-#include "workload_sets.hpp"
+#include "workload.hpp"
 
 #include <fmt/format.h>
 

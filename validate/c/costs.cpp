@@ -21,11 +21,11 @@ detp_status detp_costs_measured(double seconds, int store, detp_progress progres
     detp_costs*& made = c::given(costs, "costs");
     require_positive("seconds", seconds);
     c::Watch watch(progress, user, "calibrating");
-    const validate::Calibration measured =
+    const validate::MeasuredCalibration measured =
         validate::calibrate({.seconds = seconds, .stop = watch.token(), .progress = watch.report()});
     if (measured.stopped) throw sim::Stopped("the calibration was stopped", {});
     if (store != 0) static_cast<void>(validate::save_calibration(validate::default_calibration_path(), measured));
-    made = new detp_costs{measured.simd.costs};
+    made = new detp_costs{measured.simd};
   });
 }
 

@@ -10,7 +10,7 @@
 #include "built_in_costs.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "detp/validate/measure/run_time.hpp"
+#include "detp/validate/measure/rounds.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "timed_workloads.hpp"
 
@@ -30,7 +30,7 @@ class Calibrator {
   explicit Calibrator(const CalibrationOptions& options)
       : options_(options), numbers_(thread_numbers(sim::thread_count(options.threads))) {}
 
-  Calibration run() && {
+  MeasuredCalibration run() && {
     const std::vector<TimedWorkload> all = timed_workloads();
     const auto more = [&](std::size_t i) {
       return i < least_workloads || watch_.seconds() < share_of_first * options_.seconds;
@@ -52,6 +52,7 @@ class Calibrator {
     for (const TimedCandidate& one : timed_) store(one, usual);
     fit_all();
     set_touch_cost(result_);
+    for (CostFit& one : result_.fits) one.costs.touch = result_.of(one.engine)[one.technique].touch;
     result_.seconds = watch_.seconds();
     return std::move(result_);
   }
@@ -170,57 +171,56 @@ class Calibrator {
 
   /// Sets the costs, their fits and errors. Techniques with too few runs get the built-in costs, and the error of all.
   void fit_all() {
-    for (const Engine engine : {Engine::plain, Engine::simd}) {
-      result_.of(engine).costs = built_in_unit_costs(engine);
-      for (const Technique technique : all_techniques) {
-        fit_costs_of(technique, engine);
-        fit_threads_of(technique, engine);
-      }
+    for (const Engine engine : {Engine::simd, Engine::plain}) {
+      result_.of(engine) = built_in_unit_costs(engine);
+      for (const Technique technique : all_techniques) fit(technique, engine);
     }
     for (const Technique technique : all_techniques)
       if (!record_of(technique).simd) {  // both engines are the same
-        result_.plain.costs[technique] = result_.simd.costs[technique];
-        result_.plain.costs.threads_of(technique) = result_.simd.costs.threads_of(technique);
+        result_.plain[technique] = result_.simd[technique];
+        result_.plain.threads_of(technique) = result_.simd.threads_of(technique);
       }
     for (const Engine engine : {Engine::plain, Engine::simd})  // always plain
-      result_.of(engine).costs[Technique::sphere_cache_published] = result_.plain.costs[Technique::sphere_cache];
-    if (!errors_.empty()) result_.left_out_median_error = median(errors_);
-    if (!thread_errors_.empty()) result_.threads_left_out_median_error = median(thread_errors_);
+      result_.of(engine)[Technique::sphere_cache_published] = result_.plain[Technique::sphere_cache];
+    result_.left_out_median_error = median_error_of(result_.fits);
+    result_.threads_left_out_median_error = median_error_of(result_.thread_fits);
     set_relative_errors();
   }
 
-  void fit_costs_of(Technique technique, Engine engine) {
-    const std::vector<TimedRun>& runs = runs_of(engine, technique).on_one_thread;
-    if (runs.size() < least_on_one_thread) return;
-    EngineCalibration& result = result_.of(engine);
-    const CostFit& fit = result.fits[static_cast<std::size_t>(technique)].emplace(
-        fit_costs(runs, technique, built_in_unit_costs(engine)[technique]));
-    result.costs[technique] = fit.costs;
-    errors_.insert(errors_.end(), fit.left_out_errors.begin(), fit.left_out_errors.end());
+  void fit(Technique technique, Engine engine) {
+    CostTable& costs = result_.of(engine);
+    const TechniqueRuns& runs = runs_of(engine, technique);
+    if (runs.on_one_thread.size() >= least_on_one_thread) {
+      result_.fits.push_back(fit_costs(runs.on_one_thread, technique, costs[technique], engine));
+      costs[technique] = result_.fits.back().costs;
+    }
+    if (runs.on_more.size() < least_on_more) return;
+    const ThreadFit threads = fit_threads(runs.on_more, technique, engine, costs.threads_of(technique));
+    if (threads.left_out_errors.empty()) return;  // too few workloads
+    result_.thread_fits.push_back(threads);
+    costs.threads_of(technique) = threads.costs;
   }
 
-  void fit_threads_of(Technique technique, Engine engine) {
-    const std::vector<ThreadedRun>& runs = runs_of(engine, technique).on_more;
-    if (runs.size() < least_on_more) return;
-    const ThreadFit fit = fit_threads(runs, technique, engine, built_in_unit_costs(engine).threads_of(technique));
-    if (fit.left_out_errors.empty()) return;  // too few workloads
-    EngineCalibration& result = result_.of(engine);
-    result.thread_fits[static_cast<std::size_t>(technique)] = fit;
-    result.costs.threads_of(technique) = fit.costs;
-    thread_errors_.insert(thread_errors_.end(), fit.left_out_errors.begin(), fit.left_out_errors.end());
+  /// Of all left-out runs; 0 without any.
+  template <class Fit>
+  static double median_error_of(const std::vector<Fit>& fits) {
+    std::vector<double> all;
+    for (const Fit& fit : fits) all.insert(all.end(), fit.left_out_errors.begin(), fit.left_out_errors.end());
+    return all.empty() ? 0 : median(std::move(all));
   }
 
   void set_relative_errors() {
-    for (const Engine engine : {Engine::plain, Engine::simd})
-      for (const Technique technique : all_techniques) {
-        const Engine own = record_of(technique).simd ? engine : Engine::simd;
-        const auto& fit = result_.of(own).fits[static_cast<std::size_t>(technique)];
-        const bool known = fit && !fit->left_out_errors.empty();
-        const CalibrationQuality quality{known ? median(fit->left_out_errors) : result_.left_out_median_error,
-                                         result_.processor_share};
-        result_.of(engine).costs.relative_error_of(technique) = quality.relative_error();
-      }
+    const double of_all = CalibrationQuality{result_.left_out_median_error, result_.processor_share}.relative_error();
+    for (const Engine engine : {Engine::plain, Engine::simd}) result_.of(engine).relative_errors.fill(of_all);
+    for (const CostFit& fit : result_.fits) {
+      if (fit.left_out_errors.empty()) continue;
+      const CalibrationQuality quality{fit.left_out_median_error(), result_.processor_share};
+      for (const Engine engine : {Engine::plain, Engine::simd})
+        if (engine == fit.engine || !record_of(fit.technique).simd)
+          result_.of(engine).relative_error_of(fit.technique) = quality.relative_error();
+    }
   }
+
   struct TooLong {
     Technique technique;
     Engine engine;
@@ -230,20 +230,18 @@ class Calibrator {
   const CalibrationOptions& options_;
   std::vector<int> numbers_;  ///< of threads
   sim::Stopwatch watch_;
-  Calibration result_;
+  MeasuredCalibration result_;
   std::deque<TimedScene> scenes_;
   std::vector<TimedCandidate> timed_;
   std::array<std::array<TechniqueRuns, all_techniques.size()>, 2> runs_;  ///< by engine
-  std::vector<double> errors_;                                            ///< of left-out runs on one thread
-  std::vector<double> thread_errors_;
-  double wall_seconds_ = 0;       ///< of runs on one thread
-  double processor_seconds_ = 0;  ///< of these
+  double wall_seconds_ = 0;                                               ///< of runs on one thread
+  double processor_seconds_ = 0;                                          ///< of these
   std::vector<TooLong> too_long_;
 };
 
 }  // namespace
 
-Calibration calibrate(const CalibrationOptions& options) {
+MeasuredCalibration calibrate(const CalibrationOptions& options) {
   const sim::DefaultFloatingPoint mode;
   return Calibrator(options).run();
 }

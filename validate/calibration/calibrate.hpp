@@ -1,8 +1,10 @@
 #pragma once
 
 #include <stop_token>
+#include <vector>
 
 #include "calibration.hpp"
+#include "cost_fit.hpp"
 #include "detp/sim/base/phase.hpp"
 
 /// Measures the unit costs of this machine.
@@ -13,6 +15,17 @@ struct CalibrationOptions {
   int threads = 0;     ///< most threads of a run; 0: all cores; 1: costs of threads are not measured
   std::stop_token stop = {};
   sim::ReportPhase progress = {};
+};
+
+struct MeasuredCalibration : Calibration {
+  /// of each technique and engine; none for those with too few runs and, of the plain engine, for those whose engines are the same, which
+  /// have the built-in costs, and those of the simd engine
+  std::vector<CostFit> fits = {};
+  std::vector<ThreadFit> thread_fits = {};
+  double threads_left_out_median_error = 0;  ///< of all runs on more threads, from their times on one; 0 without any
+  std::size_t workloads = 0;                 ///< measured
+  double seconds = 0;                        ///< that the calibration took
+  bool stopped = false;  ///< a stop request came: the costs are fitted to the workloads measured until then
 };
 
 /// Times all exact techniques, with several parameters each, on samples in a cube and on its faces: 10² … 10⁵ discs and rays, from
@@ -32,6 +45,6 @@ struct CalibrationOptions {
 /// Fits the unit costs of each technique and engine to its runs on one thread, in seconds (fit_costs); the usual costs are
 /// the built-in ones. Fits the costs of threads to the runs on more threads. A technique with too few runs (10, or 5 on
 /// more threads) keeps the built-in costs.
-[[nodiscard]] Calibration calibrate(const CalibrationOptions& options = {});
+[[nodiscard]] MeasuredCalibration calibrate(const CalibrationOptions& options = {});
 
 }  // namespace detp::validate

@@ -2,7 +2,6 @@
 
 #include "calibration_file.hpp"
 #include "detp/sim/lists/simd/instruction_sets.hpp"
-#include "detp/validate/statistics/statistics.hpp"
 
 namespace detp::validate {
 namespace {
@@ -13,19 +12,62 @@ std::string joined(const std::vector<std::string_view>& symbols) {
   return list;
 }
 
-/// Calls visit(engine, technique, fit) for each fit among `fits`, a member of EngineCalibration.
-template <class Fits, class Visit>
-void for_each_fit(const Calibration& calibration, Fits EngineCalibration::*fits, const Visit& visit) {
-  for (const Engine engine : {Engine::simd, Engine::plain})
-    for (const Technique technique : all_techniques)
-      if (const auto& fit = (calibration.of(engine).*fits)[static_cast<std::size_t>(technique)])
-        visit(engine, technique, *fit);
+/// A fit of costs on one thread, or of those of threads.
+struct FitRow {
+  explicit FitRow(const CostFit& fit, const UnitCostTerm* term = nullptr) : fit(fit), costs(&fit), term(term) {}
+  explicit FitRow(const ThreadFit& fit) : fit(fit), threads(&fit) {}
+
+  const FitQuality& fit;
+  const CostFit* costs = nullptr;
+  const ThreadFit* threads = nullptr;
+  const UnitCostTerm* term = nullptr;  ///< the cost of a row of the table
+};
+
+template <class Fit>
+std::vector<FitRow> rows_of(const std::vector<Fit>& fits) {
+  return {fits.begin(), fits.end()};
 }
 
-Json rows_json(const std::vector<FitRow>& rows) {
-  Json json = Json::array();
-  for (const FitRow& row : rows) json.push_back(json_of(fit_fields(), row));
-  return json;
+/// A field of fits of costs on one thread, or of those of threads.
+template <class Value>
+Field<FitRow> of_costs(const char* name, const char* meaning, Value value) {
+  return {name, "", meaning,
+          [value](const FitRow& row) { return row.costs != nullptr ? Json(value(*row.costs)) : left_out(); }};
+}
+Field<FitRow> of_threads(const char* name, const char* meaning, double ThreadCosts::*cost) {
+  return {name, "", meaning,
+          [cost](const FitRow& row) { return row.threads != nullptr ? Json(row.threads->costs.*cost) : left_out(); }};
+}
+
+const Fields<FitRow>& fit_fields() {
+  static const Fields<FitRow> fields{
+      {"technique", "", "whose costs they are", [](const FitRow& row) { return name(row.fit.technique); }},
+      {"engine", "", "that ran it", [](const FitRow& row) { return name(row.fit.engine); }},
+      Field<FitRow>("symbol", "", "of the unit cost; thread: the start of each further thread",
+                    [](const FitRow& row) { return row.term != nullptr ? row.term->symbol : "thread"; })
+          .in_tables_alone(),
+      Field<FitRow>("seconds", "s", "the cost",
+                    [](const FitRow& row) {
+                      return row.term != nullptr ? row.costs->costs.*row.term->cost : row.threads->costs.start;
+                    })
+          .in_tables_alone(),
+      of_threads("serial_preparing", "share of sorting and building that one thread does",
+                 &ThreadCosts::serial_preparing)
+          .in_tables_alone(),
+      of_threads("serial_search", "share of the search that one thread does", &ThreadCosts::serial_search)
+          .in_tables_alone(),
+      {"runs", "", "number that were fitted", [](const FitRow& row) { return row.fit.runs; }},
+      {"median_error", "", "of the seconds of these runs, relative",
+       [](const FitRow& row) { return row.fit.median_error; }},
+      {"left_out_median_error", "", "the same by fits without the run",
+       [](const FitRow& row) { return row.fit.left_out_median_error(); }},
+      of_costs("condition", "number of the fit's matrix", [](const CostFit& fit) { return fit.condition; }),
+      of_costs("fitted", "symbols of the costs above 0", [](const CostFit& fit) { return joined(fit.fitted); })
+          .in_json_alone(),
+      of_costs("dropped", "symbols of the costs that the runs could not tell apart from others",
+               [](const CostFit& fit) { return joined(fit.dropped); })
+          .in_json_alone()};
+  return fields;
 }
 
 void save(const CalibrateRequest& request, CalibrateAnswer& answer) {
@@ -48,14 +90,6 @@ Field<CalibrateAnswer> stored(const std::string& name, const std::string& unit, 
   return {name, unit, meaning, [name](const CalibrateAnswer& answer) { return answer.stored.at(name); }};
 }
 
-/// A value of the fit of threads, or nothing.
-Field<FitRow> of_threads(const std::string& name, const std::string& meaning, double ThreadCosts::*cost) {
-  return Field<FitRow>(
-             name, "", meaning,
-             [cost](const FitRow& row) { return row.threads != nullptr ? Json(row.threads->costs.*cost) : left_out(); })
-      .in_tables_alone();
-}
-
 }  // namespace
 
 CalibrateAnswer answer(const CalibrateRequest& request, const std::stop_token& stop, const sim::ReportPhase& progress) {
@@ -71,36 +105,15 @@ CalibrateAnswer answer(const CalibrateRequest& request, const std::stop_token& s
   return answer;
 }
 
-double FitRow::left_out_median_error() const {
-  return median(costs != nullptr ? costs->left_out_errors : threads->left_out_errors);
-}
-
-std::vector<FitRow> cost_fit_rows(const Calibration& calibration) {
-  std::vector<FitRow> rows;
-  for_each_fit(calibration, &EngineCalibration::fits, [&](Engine engine, Technique technique, const CostFit& fit) {
-    rows.push_back({.technique = technique, .engine = engine, .costs = &fit});
-  });
-  return rows;
-}
-
-std::vector<FitRow> thread_fit_rows(const Calibration& calibration) {
-  std::vector<FitRow> rows;
-  for_each_fit(calibration, &EngineCalibration::thread_fits,
-               [&](Engine engine, Technique technique, const ThreadFit& fit) {
-                 rows.push_back({.technique = technique, .engine = engine, .threads = &fit});
-               });
-  return rows;
-}
-
 const Fields<CalibrateAnswer>& calibrate_fields() {
   using Answer = CalibrateAnswer;
   static const Fields<Answer> fields{
       stored("costs", "s", "the unit costs of each engine and technique, by their symbols"),
       stored("threads", "", "the costs of threads of each engine and technique: serial shares, and seconds of a start"),
       {"fits", "", "the fits of the unit costs",
-       [](const Answer& a) { return rows_json(cost_fit_rows(a.calibration)); }},
+       [](const Answer& a) { return rows_json(fit_fields(), rows_of(a.calibration.fits)); }},
       {"thread_fits", "", "the fits of the costs of threads",
-       [](const Answer& a) { return rows_json(thread_fit_rows(a.calibration)); }},
+       [](const Answer& a) { return rows_json(fit_fields(), rows_of(a.calibration.thread_fits)); }},
       {"left_out_median_error", "", "median relative error of runs on one thread, by fits without them",
        [](const Answer& a) { return a.calibration.left_out_median_error; }},
       {"threads_left_out_median_error", "", "the same of runs on more threads, from their times on one",
@@ -121,45 +134,14 @@ const Fields<CalibrateAnswer>& calibrate_fields() {
   return fields;
 }
 
-const Fields<FitRow>& fit_fields() {
-  static const Fields<FitRow> fields{
-      {"technique", "", "whose costs they are", [](const FitRow& row) { return name(row.technique); }},
-      {"engine", "", "that ran it", [](const FitRow& row) { return name(row.engine); }},
-      Field<FitRow>("symbol", "", "of the unit cost; thread: the start of each further thread",
-                    [](const FitRow& row) { return row.term != nullptr ? row.term->symbol : "thread"; })
-          .in_tables_alone(),
-      Field<FitRow>("seconds", "s", "the cost",
-                    [](const FitRow& row) {
-                      return row.term != nullptr ? row.costs->costs.*row.term->cost : row.threads->costs.start;
-                    })
-          .in_tables_alone(),
-      of_threads("serial_preparing", "share of sorting and building that one thread does",
-                 &ThreadCosts::serial_preparing),
-      of_threads("serial_search", "share of the search that one thread does", &ThreadCosts::serial_search),
-      {"runs", "", "number that were fitted", &FitRow::runs},
-      {"median_error", "", "of the seconds of these runs, relative", &FitRow::median_error},
-      {"left_out_median_error", "", "the same by fits without the run", &FitRow::left_out_median_error},
-      {"condition", "", "number of the fit's matrix",
-       [](const FitRow& row) { return row.costs != nullptr ? Json(row.costs->condition) : left_out(); }},
-      Field<FitRow>(
-          "fitted", "", "symbols of the costs above 0",
-          [](const FitRow& row) { return row.costs != nullptr ? Json(joined(row.costs->fitted)) : left_out(); })
-          .in_json_alone(),
-      Field<FitRow>(
-          "dropped", "", "symbols of the costs that the runs could not tell apart from others",
-          [](const FitRow& row) { return row.costs != nullptr ? Json(joined(row.costs->dropped)) : left_out(); })
-          .in_json_alone()};
-  return fields;
-}
+Columns calibrate_columns() { return columns_of(fit_fields()); }
 
-std::vector<Json> calibrate_rows(const Calibration& calibration) {
+std::vector<Json> calibrate_rows(const MeasuredCalibration& calibration) {
   std::vector<Json> rows;
-  for (FitRow row : cost_fit_rows(calibration))
-    for (const UnitCostTerm& term : unit_cost_terms) {
-      row.term = &term;
-      if (row.costs->costs.*term.cost > 0) rows.push_back(cells_of(fit_fields(), row));
-    }
-  for (const FitRow& row : thread_fit_rows(calibration)) rows.push_back(cells_of(fit_fields(), row));
+  for (const CostFit& fit : calibration.fits)
+    for (const UnitCostTerm& term : unit_cost_terms)
+      if (fit.costs.*term.cost > 0) rows.push_back(cells_of(fit_fields(), FitRow(fit, &term)));
+  for (const ThreadFit& fit : calibration.thread_fits) rows.push_back(cells_of(fit_fields(), FitRow(fit)));
   return rows;
 }
 

@@ -20,7 +20,7 @@ struct CalibrateRequest {
 };
 
 struct CalibrateAnswer {
-  Calibration calibration;
+  MeasuredCalibration calibration;
   Json stored;                         ///< calibration_json()
   std::string saved = {};              ///< the path; empty: not saved
   std::string not_saved_because = {};  ///< empty if it was saved
@@ -32,30 +32,13 @@ struct CalibrateAnswer {
 [[nodiscard]] CalibrateAnswer answer(const CalibrateRequest& request, const std::stop_token& stop = {},
                                      const sim::ReportPhase& progress = {});
 
-/// A fit of one technique by one engine: of its costs on one thread, or of those of threads.
-struct FitRow {
-  Technique technique;
-  Engine engine;
-  const CostFit* costs = nullptr;
-  const ThreadFit* threads = nullptr;
-  const UnitCostTerm* term = nullptr;  ///< the cost of a row of a table
-
-  [[nodiscard]] std::size_t runs() const { return costs != nullptr ? costs->runs : threads->runs; }
-  [[nodiscard]] double median_error() const { return costs != nullptr ? costs->median_error : threads->median_error; }
-  [[nodiscard]] double left_out_median_error() const;
-};
-
-/// The fits of costs on one thread, or those of costs of threads. They refer to the calibration.
-[[nodiscard]] std::vector<FitRow> cost_fit_rows(const Calibration& calibration);
-[[nodiscard]] std::vector<FitRow> thread_fit_rows(const Calibration& calibration);
-
 [[nodiscard]] const Fields<CalibrateAnswer>& calibrate_fields();
-[[nodiscard]] const Fields<FitRow>& fit_fields();
 
-/// The rows of the table, with the columns of fit_fields(): one for each cost above 0, and one for each fit of costs of threads.
-[[nodiscard]] std::vector<Json> calibrate_rows(const Calibration& calibration);
+/// The table: a row for each cost above 0 of each fit, and one for each fit of costs of threads.
+[[nodiscard]] Columns calibrate_columns();
+[[nodiscard]] std::vector<Json> calibrate_rows(const MeasuredCalibration& calibration);
 
-/// Of calibrate_fields() and fit_fields().
+/// Of the answer and of its fits.
 [[nodiscard]] std::vector<FieldText> describe_calibrate();
 
 }  // namespace detp::validate

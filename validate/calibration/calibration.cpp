@@ -24,6 +24,17 @@ std::string cpu_name() {
   return "unknown";
 }
 
+/// Calls visit(name in JSON, name in words, member) for each member of a key.
+template <class Visit>
+void for_each_member(const Visit& visit) {
+  visit("cpu", "cpu", &CalibrationKey::cpu);
+  visit("instruction_set", "instruction set", &CalibrationKey::instruction_set);
+  visit("caches", "cache sizes", &CalibrationKey::caches);
+  visit("threads", "number of threads", &CalibrationKey::threads);
+  visit("compiler", "compiler", &CalibrationKey::compiler);
+  visit("cost_model", "version of the cost model", &CalibrationKey::cost_model);
+}
+
 }  // namespace
 
 CalibrationKey this_machine() {
@@ -37,31 +48,24 @@ CalibrationKey this_machine() {
 }
 
 std::string difference(const CalibrationKey& stored, const CalibrationKey& here) {
-  const auto differ = [](std::string_view what, const auto& there, const auto& at_hand) {
-    return there == at_hand ? "" : fmt::format("its {} is {}, here it is {}", what, there, at_hand);
-  };
-  for (const std::string& text :
-       {differ("cpu", stored.cpu, here.cpu), differ("instruction set", stored.instruction_set, here.instruction_set),
-        differ("cache sizes", stored.caches, here.caches), differ("number of threads", stored.threads, here.threads),
-        differ("compiler", stored.compiler, here.compiler),
-        differ("version of the cost model", stored.cost_model, here.cost_model)})
-    if (!text.empty()) return shortened(text, 300);
-  return "";
+  std::string first;
+  for_each_member([&](const char* /*name*/, const char* what, auto member) {
+    if (first.empty() && stored.*member != here.*member)
+      first = shortened(fmt::format("its {} is {}, here it is {}", what, stored.*member, here.*member), 300);
+  });
+  return first;
 }
 
 nlohmann::ordered_json to_json(const CalibrationKey& key) {
-  return {{"cpu", key.cpu},           {"instruction_set", key.instruction_set},
-          {"caches", key.caches},     {"threads", key.threads},
-          {"compiler", key.compiler}, {"cost_model", key.cost_model}};
+  nlohmann::ordered_json json;
+  for_each_member([&](const char* name, const char* /*what*/, auto member) { json[name] = key.*member; });
+  return json;
 }
 
 CalibrationKey key_of(const nlohmann::ordered_json& json) {
-  return {.cpu = json.at("cpu"),
-          .instruction_set = json.at("instruction_set"),
-          .caches = json.at("caches"),
-          .threads = json.at("threads"),
-          .compiler = json.at("compiler"),
-          .cost_model = json.at("cost_model")};
+  CalibrationKey key;
+  for_each_member([&](const char* name, const char* /*what*/, auto member) { json.at(name).get_to(key.*member); });
+  return key;
 }
 
 std::string CalibrationQuality::doubt() const {

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 
-#include "cost_fit.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
 
 /// A calibration: the unit costs of a machine, how far they can be trusted, and to which machine and program they belong.
 namespace detp::validate {
@@ -42,8 +40,8 @@ inline constexpr double doubtful_share = 0.9;
 struct CalibrationQuality {
   double left_out_median_error = 0;  ///< of all runs on one thread, by fits to other workloads
   double processor_share = 1;        ///< processor time over wall time of these runs; other programs took the rest
-  bool probe =
-      false;  ///< built-in costs, scaled by a few short searches (probe.hpp); never doubtful, because it promises little
+  /// built-in costs, scaled by a few short searches (costs_in_use.hpp); never doubtful, because it promises little
+  bool probe = false;
 
   /// Why predictions by these costs are doubtful, in words; empty if they are not.
   [[nodiscard]] std::string doubt() const;
@@ -56,24 +54,15 @@ struct CalibrationQuality {
   [[nodiscard]] bool is_better_than(const CalibrationQuality& other) const;
 };
 
-/// The costs of one engine. Fits are in the order of Technique; empty for techniques that are not exact, for those with
-/// too few runs and, of the plain engine, for those whose engines are the same.
-struct EngineCalibration {
-  CostTable costs;  ///< the fitted ones; the built-in ones of techniques without a fit
-  std::array<std::optional<CostFit>, all_techniques.size()> fits = {};
-  std::array<std::optional<ThreadFit>, all_techniques.size()> thread_fits = {};
-};
-
+/// The costs of both engines. Of a calibration that was read, also to what it belongs.
 struct Calibration : CalibrationQuality {
-  EngineCalibration plain = {};
-  EngineCalibration simd = {};
-  double threads_left_out_median_error = 0;  ///< of all runs on more threads, from their times on one; 0 without any
-  std::size_t workloads = 0;                 ///< measured
-  double seconds = 0;                        ///< that the calibration took
-  bool stopped = false;  ///< a stop request came: the costs are fitted to the workloads measured until then
+  CostTable plain;
+  CostTable simd;
+  CalibrationKey key = {};
+  std::string date = {};  ///< "2026-11-20"
 
-  [[nodiscard]] EngineCalibration& of(Engine engine) { return engine == Engine::plain ? plain : simd; }
-  [[nodiscard]] const EngineCalibration& of(Engine engine) const { return engine == Engine::plain ? plain : simd; }
+  [[nodiscard]] CostTable& of(Engine engine) { return engine == Engine::plain ? plain : simd; }
+  [[nodiscard]] const CostTable& of(Engine engine) const { return engine == Engine::plain ? plain : simd; }
 };
 
 }  // namespace detp::validate

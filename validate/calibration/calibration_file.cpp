@@ -110,7 +110,7 @@ Json threads_json(const CostTable& costs) {
 }
 
 /// Of what a calibration has. The result of detp calibrate, which is read too, has more.
-std::string checksum_of(const Json& json) {
+std::string checksum_of_costs(const Json& json) {
   Json members;
   for (const char* name :
        {"key", "date", "left_out_median_error", "processor_share", "relative_errors", "costs", "threads"})
@@ -162,7 +162,7 @@ void write_cache_file(const std::string& path, const std::string& text) {
 
 Json calibration_json(const Calibration& calibration) {
   const auto of_engines = [&](Json (*json_of_costs)(const CostTable&)) {
-    return Json{{"simd", json_of_costs(calibration.simd.costs)}, {"plain", json_of_costs(calibration.plain.costs)}};
+    return Json{{"simd", json_of_costs(calibration.simd)}, {"plain", json_of_costs(calibration.plain)}};
   };
   Json json{{"schema", {{"name", schema}, {"version", 1}}},
             {"key", to_json(this_machine())},
@@ -172,7 +172,7 @@ Json calibration_json(const Calibration& calibration) {
             {"relative_errors", of_engines(errors_json)},
             {"costs", of_engines(costs_json)},
             {"threads", of_engines(threads_json)}};
-  json["checksum"] = checksum_of(json);
+  json["checksum"] = checksum_of_costs(json);
   if (calibration.probe) json["probe"] = true;
   return json;
 }
@@ -196,14 +196,14 @@ std::string save_calibration(const std::string& path, const Calibration& calibra
   return "";
 }
 
-std::optional<StoredCalibration> find_calibration(const std::string& path, std::string* why_not) {
+std::optional<Calibration> find_calibration(const std::string& path, std::string* why_not) {
   std::string ignored;
   std::string& reason = why_not != nullptr ? *why_not : ignored;
   reason.clear();
   std::error_code unknown;  // a file that cannot be looked at is not used
   if (path.empty() || !std::filesystem::exists(path, unknown)) return std::nullopt;
   try {
-    StoredCalibration stored = read_calibration(path);
+    Calibration stored = read_calibration(path);
     const std::string differs = difference(stored.key, this_machine());
     if (differs.empty()) return stored;
     reason = fmt::format("{}: {}", path, differs);
@@ -213,7 +213,7 @@ std::optional<StoredCalibration> find_calibration(const std::string& path, std::
   return std::nullopt;
 }
 
-std::optional<StoredCalibration> stored_calibration(std::string* why_not) {
+std::optional<Calibration> stored_calibration(std::string* why_not) {
   if (auto stored = find_calibration(default_calibration_path(), why_not)) return stored;
   return find_calibration(probe_path());
 }
@@ -223,11 +223,11 @@ CostTable stored_unit_costs(Engine engine) {
   return stored ? stored->of(engine) : built_in_unit_costs(engine);
 }
 
-StoredCalibration parse_calibration(const std::string& text, const std::string& path) {
+Calibration parse_calibration(const std::string& text, const std::string& path) {
   try {
     const Json json = Json::parse(text);
     check_version(json, path);
-    StoredCalibration stored;
+    Calibration stored;
     stored.key = key_of(json.at("key"));
     stored.date = json.at("date");
     stored.left_out_median_error = json.at("left_out_median_error");
@@ -237,7 +237,7 @@ StoredCalibration parse_calibration(const std::string& text, const std::string& 
     stored.probe = json.value("probe", false);
     stored.plain = costs_of(json, Engine::plain, stored);
     stored.simd = costs_of(json, Engine::simd, stored);
-    if (json.value("checksum", "") != checksum_of(json))
+    if (json.value("checksum", "") != checksum_of_costs(json))
       throw sim::FileError(path,
                            "was altered, or is of an earlier version of detp: it does not fit its checksum; make "
                            "a new one with detp calibrate");
@@ -250,7 +250,7 @@ StoredCalibration parse_calibration(const std::string& text, const std::string& 
   }
 }
 
-StoredCalibration read_calibration(const std::string& path) {
+Calibration read_calibration(const std::string& path) {
   return parse_calibration(sim::read_file(path, most_bytes), path);
 }
 

@@ -17,14 +17,23 @@ struct TimedRun {
   double build_seconds = 0;  ///< of sorting and building alone
 };
 
-struct CostFit {
-  UnitCosts costs;
+/// How well a technique's costs by one engine fit its runs.
+struct FitQuality {
+  Technique technique = Technique::brute_force;
+  Engine engine = Engine::simd;
   std::size_t runs = 0;
+  double median_error = 0;                   ///< of |computed / measured seconds - 1|, on the fitted runs
+  std::vector<double> left_out_errors = {};  ///< |computed / measured seconds - 1| of each run, by fits without it
+
+  /// The median of these errors.
+  [[nodiscard]] double left_out_median_error() const;
+};
+
+struct CostFit : FitQuality {
+  UnitCosts costs;
   std::vector<std::string_view> fitted = {};   ///< symbols of the costs that are not 0
   std::vector<std::string_view> dropped = {};  ///< symbols of the costs that the runs could not tell apart from others
   double condition = 1;                        ///< of the matrix of the fit, whose columns have length 1
-  double median_error = 0;                     ///< of |computed / measured seconds - 1|, on the fitted runs
-  std::vector<double> left_out_errors = {};    ///< |computed / measured seconds - 1| of each run, by fits without it
 };
 
 /// The largest condition number with which costs are used. With a larger one, some terms can hardly be told apart: those
@@ -49,7 +58,7 @@ inline constexpr double weight_of_usual = 0.3;
 /// the same terms: each leaves out the workloads whose number has one remainder modulo 5. Throws std::invalid_argument
 /// if there are fewer than 10 runs, or if a run took no time.
 [[nodiscard]] CostFit fit_costs(std::span<const TimedRun> runs, Technique technique,
-                                const std::optional<UnitCosts>& usual = {});
+                                const std::optional<UnitCosts>& usual = {}, Engine engine = Engine::simd);
 
 /// A search on several threads, beside the same search on one.
 struct ThreadedRun {
@@ -62,11 +71,8 @@ struct ThreadedRun {
   double preparing = 0;        ///< on `threads` threads, sorting and building alone
 };
 
-struct ThreadFit {
+struct ThreadFit : FitQuality {
   ThreadCosts costs;
-  std::size_t runs = 0;
-  double median_error = 0;                   ///< of |computed / measured seconds - 1|, on the fitted runs
-  std::vector<double> left_out_errors = {};  ///< |computed / measured seconds - 1| of each run, by fits without it
 };
 
 /// The costs that minimise the sum of squared relative errors of the runs' seconds, plus that of their seconds for sorting
@@ -78,22 +84,5 @@ struct ThreadFit {
 /// Throws std::invalid_argument if there are fewer than 5 runs, if a run has fewer than 2 threads, or if it took no time.
 [[nodiscard]] ThreadFit fit_threads(std::span<const ThreadedRun> runs, Technique technique, Engine engine,
                                     const std::optional<ThreadCosts>& usual = {});
-
-/// The errors of runs by fits without them: errors(fitted, left out) of five divisions, each of which leaves out the workloads whose number
-/// has one remainder modulo 5.
-template <class Run, class Errors>
-[[nodiscard]] std::vector<double> errors_left_out(std::span<const Run> runs, const Errors& errors) {
-  constexpr std::size_t parts = 5;
-  std::vector<double> all;
-  for (std::size_t part = 0; part < parts; ++part) {
-    std::vector<Run> fitted;
-    std::vector<Run> left_out;
-    for (const Run& run : runs) (run.workload % parts == part ? left_out : fitted).push_back(run);
-    if (fitted.empty()) continue;
-    const std::vector<double> of_part = errors(fitted, left_out);
-    all.insert(all.end(), of_part.begin(), of_part.end());
-  }
-  return all;
-}
 
 }  // namespace detp::validate

@@ -1,4 +1,4 @@
-#include "costs_in_use.hpp"
+#include "calibration_file.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include "built_in_costs.hpp"
-#include "calibration_file.hpp"
 
 namespace detp::validate {
 namespace {
@@ -32,7 +31,7 @@ CostsInUse built_in_costs() {
       .built_in = true};
 }
 
-CostsInUse calibrated_costs(const StoredCalibration& stored) {
+CostsInUse calibrated_costs(const Calibration& stored) {
   return {.simd = stored.simd,
           .plain = stored.plain,
           .origin = stored.probe
@@ -64,7 +63,7 @@ CostsInUse costs_in_use(const CostRequest& request, const Notice& notice) {
   }
   if (request.calibration == "none") return built_in_costs();
   if (request.calibration != "auto") {
-    const StoredCalibration stored = read_calibration(request.calibration);
+    const Calibration stored = read_calibration(request.calibration);
     const std::string differs = difference(stored.key, this_machine());
     if (!differs.empty())
       throw std::invalid_argument(fmt::format(

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "built_in_costs.hpp"
-#include "costs_in_use.hpp"
+#include "calibration_file.hpp"
 #include "detp/sim/base/floating_point.hpp"
-#include "detp/validate/measure/run_time.hpp"
+#include "detp/validate/measure/rounds.hpp"
 #include "timed_workloads.hpp"
 
 namespace detp::validate {
@@ -69,9 +69,8 @@ class Probe {
     Calibration found;
     found.probe = true;
     found.left_out_median_error = probe_error;
-    for (const Engine engine : {Engine::simd, Engine::plain}) set(found.of(engine).costs, engine);
+    for (const Engine engine : {Engine::simd, Engine::plain}) set(found.of(engine), engine);
     set_touch_cost(found);
-    found.seconds = watch_.seconds();
     return found;
   }
 

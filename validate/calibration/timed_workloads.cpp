@@ -41,7 +41,7 @@ double seconds_of_byte() {
   return least;
 }
 
-constexpr double side = 1;
+constexpr double cube_side = 1;
 
 bool is_clustered(std::size_t place) { return place % 3 == 2; }
 bool has_pieces(std::size_t place) { return place % 8 == 4 || place % 8 == 5; }
@@ -67,7 +67,7 @@ void gather(std::vector<sim::Disc>& discs, std::size_t place) {
         static_cast<std::uint64_t>(clusters * sim::uniform4(place + 1, sim::Stream::structure, i, 1)[0]);
     const auto centre = sim::uniform4(place + 1, sim::Stream::structure, cluster, 2);
     const double size = 0.05 * std::pow(10.0, centre[3]);  // of the part of space that the cluster fills
-    discs[i].centre = side * glm::dvec3(centre[0], centre[1], centre[2]) + size * discs[i].centre;
+    discs[i].centre = cube_side * glm::dvec3(centre[0], centre[1], centre[2]) + size * discs[i].centre;
   }
 }
 
@@ -81,7 +81,7 @@ std::vector<sim::Ray> rays_between(const std::vector<sim::Disc>& discs, std::siz
           .centre;
     };
     const glm::dvec3 from = sample(random[0]);
-    const glm::dvec3 way = sample(random[1]) - from + 1e-3 * side * glm::dvec3(random[2], random[3], 0.5);
+    const glm::dvec3 way = sample(random[1]) - from + 1e-3 * cube_side * glm::dvec3(random[2], random[3], 0.5);
     rays[i].origin = from + 1e-5 * way;
     rays[i].direction = glm::normalize(way);
     rays[i].length = 1.0001 * glm::length(way);
@@ -98,8 +98,8 @@ std::vector<TimedWorkload> timed_workloads() {
       for (const double spacing : {0.1, 0.5, 2.0})  // disc radius over the distance between samples
         for (const auto body : {sim::Body::cube, sim::Body::cube_faces}) {
           const double root = body == sim::Body::cube ? 1.0 / 3 : 0.5;
-          const double distance = side / std::pow(static_cast<double>(samples), root);
-          const double radius = std::min(0.2 * side, spacing * distance);
+          const double distance = cube_side / std::pow(static_cast<double>(samples), root);
+          const double radius = std::min(0.2 * cube_side, spacing * distance);
           if (static_cast<double>(samples * rays) * radius * radius < 3e6) all.push_back({body, samples, rays, radius});
         }
   std::vector<TimedWorkload> first;
@@ -130,7 +130,8 @@ std::vector<TimedWorkload> timed_workloads() {
 }
 
 std::vector<sim::Disc> discs_of(const TimedWorkload& workload, std::size_t place) {
-  std::vector<sim::Disc> discs = sim::uniform_discs(workload.body, side, workload.samples, workload.radius, place + 1);
+  std::vector<sim::Disc> discs =
+      sim::uniform_discs(workload.body, cube_side, workload.samples, workload.radius, place + 1);
   if (is_clustered(place)) gather(discs, place);
   if (place / 2 % 2 == 0) return discs;
   sim::Box box;
@@ -149,7 +150,7 @@ std::vector<sim::Ray> rays_of(const TimedWorkload& workload, const std::vector<s
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const auto random = sim::uniform4(place + 1, sim::Stream::structure, i);
     rays[i].origin += (2 * random[0] - 1) * enclosing.radius * rays[i].direction;
-    rays[i].length = (0.1 + 0.4 * random[1]) * side;
+    rays[i].length = (0.1 + 0.4 * random[1]) * cube_side;
   }
   return rays;
 }
@@ -174,7 +175,7 @@ std::vector<Candidate> timed_candidates(const TimedWorkload& workload, std::size
   };
   const auto samples = static_cast<double>(workload.samples);
   const int levels = std::max(1, static_cast<int>(std::lround(std::log2(samples) / 3)));
-  const double outer = std::sqrt(0.75) * side + workload.radius;
+  const double outer = std::sqrt(0.75) * cube_side + workload.radius;
   std::vector<Candidate> list{{Technique::brute_force, BruteForceParameters{}}};
   for (const double ratio : {pick(0.4, 0.5, 0.6), pick(0.65, 0.75, 0.55)}) {
     const std::int64_t most = model::sphere_count(Form::corrected, {ratio}, {workload.radius}, {outer});
@@ -201,10 +202,7 @@ void set_touch_cost(Calibration& calibration) {
   const double seconds = seconds_of_byte();
   if (!(seconds > 0)) return;
   for (const Engine engine : {Engine::simd, Engine::plain})
-    for (const Technique technique : all_techniques) {
-      calibration.of(engine).costs[technique].touch = seconds;
-      if (auto& fit = calibration.of(engine).fits[static_cast<std::size_t>(technique)]) fit->costs.touch = seconds;
-    }
+    for (UnitCosts& costs : calibration.of(engine).of_technique) costs.touch = seconds;
 }
 
 }  // namespace detp::validate

@@ -18,7 +18,7 @@ namespace detp::validate {
 class LateSearcher;
 
 struct PlanOptions {
-  /// seconds, of another machine; those of this one: stored_unit_costs() or calibrate().simd.costs
+  /// seconds, of another machine; those of this one: stored_unit_costs() or calibrate().simd
   CostTable costs = built_in_unit_costs();
   std::optional<double> rays = {};      ///< number of rays in each search; default: as many as are shown to `plan`
   std::optional<double> farthest = {};  ///< as for sim::Searcher

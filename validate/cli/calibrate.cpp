@@ -28,15 +28,17 @@ TextCell left_out_cell(double error) {
   return {fmt::format("{:.1f}", 100 * error), error > validate::doubtful_error ? Style::doubtful : Style::plain};
 }
 
-std::vector<TextCell> first_cells(const validate::FitRow& row) {
-  return {{std::string(name(row.technique))},
-          {std::string(name(row.engine))},
-          {fmt::format("{}", row.runs())},
-          {fmt::format("{:.1f}", 100 * row.median_error())},
-          left_out_cell(row.left_out_median_error())};
+std::vector<TextCell> fit_cells(const validate::FitQuality& fit, std::initializer_list<std::string> more) {
+  std::vector<TextCell> cells{{std::string(name(fit.technique))},
+                              {std::string(name(fit.engine))},
+                              {fmt::format("{}", fit.runs)},
+                              {fmt::format("{:.1f}", 100 * fit.median_error)},
+                              left_out_cell(fit.left_out_median_error())};
+  for (const std::string& text : more) cells.push_back({text});
+  return cells;
 }
 
-std::string thread_table(const std::vector<validate::FitRow>& rows, const Screen& screen) {
+std::string thread_table(const std::vector<validate::ThreadFit>& fits, const Screen& screen) {
   TextTable table({{.head = "technique", .align = Align::left},
                    {.head = "engine", .align = Align::left},
                    {.head = "runs"},
@@ -45,19 +47,15 @@ std::string thread_table(const std::vector<validate::FitRow>& rows, const Screen
                    {.head = "preparing", .group = "serial share, %"},
                    {.head = "search", .group = "serial share, %"},
                    {.head = "start, microseconds"}});
-  for (const validate::FitRow& row : rows) {
-    std::vector<TextCell> cells = first_cells(row);
-    for (TextCell& cell : std::vector<TextCell>{{fmt::format("{:.0f}", 100 * row.threads->costs.serial_preparing)},
-                                                {fmt::format("{:.0f}", 100 * row.threads->costs.serial_search)},
-                                                {fmt::format("{:.3g}", 1e6 * row.threads->costs.start)}})
-      cells.push_back(std::move(cell));
-    table.add(std::move(cells));
-  }
+  for (const validate::ThreadFit& fit : fits)
+    table.add(fit_cells(
+        fit, {fmt::format("{:.0f}", 100 * fit.costs.serial_preparing),
+              fmt::format("{:.0f}", 100 * fit.costs.serial_search), fmt::format("{:.3g}", 1e6 * fit.costs.start)}));
   return table.text(screen);
 }
 
-std::string to_text(const validate::CalibrateAnswer& answer, const Screen& screen) {
-  const validate::Calibration& calibration = answer.calibration;
+std::string calibrate_text(const validate::CalibrateAnswer& answer, const Screen& screen) {
+  const validate::MeasuredCalibration& calibration = answer.calibration;
   TextTable table({{.head = "technique", .align = Align::left},
                    {.head = "engine", .align = Align::left},
                    {.head = "runs"},
@@ -65,19 +63,15 @@ std::string to_text(const validate::CalibrateAnswer& answer, const Screen& scree
                    {.head = "left out", .group = "% of the seconds"},
                    {.head = "condition", .spare = 1},
                    {.head = "nanoseconds", .align = Align::left}});
-  for (const validate::FitRow& row : validate::cost_fit_rows(calibration)) {
-    std::vector<TextCell> cells = first_cells(row);
-    cells.push_back({fmt::format("{:.0f}", row.costs->condition)});
-    cells.push_back({costs_text(row.costs->costs)});
-    table.add(std::move(cells));
-  }
+  for (const validate::CostFit& fit : calibration.fits)
+    table.add(fit_cells(fit, {fmt::format("{:.0f}", fit.condition), costs_text(fit.costs)}));
   std::string text = table.text(screen);
   std::string symbols =
       "left out: the error on workloads that were left out of the fit. condition: of the fit's matrix.";
   for (const UnitCostTerm& term : unit_cost_terms) symbols += fmt::format(" {}: {}.", term.symbol, term.meaning);
   text += legend(screen, symbols) + "\n";
   if (calibration.threads_left_out_median_error > 0)
-    text += thread_table(validate::thread_fit_rows(calibration), screen) +
+    text += thread_table(calibration.thread_fits, screen) +
             legend(screen,
                    "runs on several threads, from the same runs on one. serial share: of the work that one thread does "
                    "while the others wait; preparing: sorting and building. start: of each further thread.") +
@@ -111,8 +105,8 @@ Result run_calibrate(const CalibrateOptions& options, const CommonOptions& commo
   Result result;
   result.inputs = {{"seconds", options.seconds}};
   result.json = json_of(validate::calibrate_fields(), answer);
-  result.text = to_text(answer, common.screen());
-  Table table(columns_of(validate::fit_fields()));
+  result.text = calibrate_text(answer, common.screen());
+  Table table(validate::calibrate_columns());
   for (const Json& row : validate::calibrate_rows(answer.calibration)) table.add(row);
   result.csv = table.csv();
   result.output_is_written = true;

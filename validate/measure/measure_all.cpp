@@ -9,7 +9,6 @@
 
 #include "detp/validate/statistics/statistics.hpp"
 #include "rounds.hpp"
-#include "run_time.hpp"
 
 namespace detp::validate {
 namespace {
@@ -21,6 +20,8 @@ constexpr int most_attempts = 4;       ///< of a first run
 /// A candidate takes part in the selection if its first time is at most this many times the fastest. First runs do not
 /// take turns, so the machine's speed may have changed between two of them.
 constexpr double may_be_fastest = 3;
+/// While the best is selected, one that is slower by more than this factor is timed in four rounds only.
+constexpr double behind = 1.5;
 /// A judged candidate is timed in every round, unless it takes more than this many times as long as the fastest.
 constexpr double hopelessly_behind = 3;
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -80,7 +81,7 @@ class Search {
     std::vector<Timed*> entries;
     for (Timed& one : found_.candidates)
       if (!one.abandoned && one.first_seconds <= may_be_fastest * fastest_) entries.push_back(&one);
-    time_in_turns(entries, options_.behind, &Timed::selecting);
+    time_in_turns(entries, behind, &Timed::selecting);
     found_.best = fastest_selected(found_.candidates);
   }
 
@@ -192,12 +193,12 @@ class Search {
     return run.outcome.stopped ? std::nullopt : std::optional(run.seconds);
   }
 
-  void time_in_turns(const std::vector<Timed*>& entries, double behind, std::vector<double> Timed::*half) const {
+  void time_in_turns(const std::vector<Timed*>& entries, double most_behind, std::vector<double> Timed::*half) const {
     const double enough = std::min<double>(most_rounds, std::ceil(enough_timed / fastest_));
     const auto times = timed_rounds(
         entries.size(),
         {.rounds = std::max(options_.repeats, static_cast<int>(enough)), .most_seconds = options_.most_seconds},
-        [&](const TimesOfAll& so_far) { return not_behind(so_far, behind); },
+        [&](const TimesOfAll& so_far) { return not_behind(so_far, most_behind); },
         [&](std::size_t i, std::span<const double>) { return time(*entries[i]); });
     for (std::size_t i = 0; i < entries.size(); ++i) entries[i]->*half = times[i];
   }

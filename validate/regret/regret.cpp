@@ -7,14 +7,41 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "detp/model/rank/paper_rule.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/choice/analysis.hpp"
-#include "detp/validate/measure/run_time.hpp"
+#include "detp/validate/choice/pilot.hpp"
+#include "detp/validate/measure/rounds.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
 namespace detp::validate {
 namespace {
+
+Chosen chosen(const Choice& choice, double seconds_before = 0) {
+  return {choice.best(), seconds_before + choice.choosing_seconds};
+}
+
+template <Purpose purpose>
+Chosen by_pilot(const sim::Problem& problem, const Job& /*job*/, const CostTable& costs, int threads) {
+  return chosen(choose({.problem = &problem, .purpose = purpose, .threads = threads}, costs));
+}
+
+template <Rigor rigor>
+Chosen by_workload(const sim::Problem& problem, const Job& job, const CostTable& costs, int threads) {
+  return chosen(choose({.problem = &problem, .workload = job.workload(), .rigor = rigor, .threads = threads}, costs),
+                job.observed().seconds);
+}
+
+/// The candidates of the pilot, the other techniques and neighbours of the fastest, each run several times.
+Chosen by_runs(const sim::Problem& problem, const Job& /*job*/, const CostTable& costs, int threads) {
+  const sim::Stopwatch watch;
+  const Choice found = choose({.problem = &problem, .threads = threads}, costs);
+  const Analysis analysis = analyse(problem, found.candidates, {.threads = threads});
+  const Analysed& best = analysis.candidates.at(analysis.best.value_or(0));
+  return {{.candidate = best.candidate, .time = {.intersect = *best.seconds}, .threads = best.threads},
+          watch.seconds()};
+}
 
 std::optional<Prediction> predicted(const Workload& workload, const CostTable& costs, const Contender& contender) {
   const auto& [candidate, threads] = contender;
@@ -156,6 +183,43 @@ class RegretRunner {
 };
 
 }  // namespace
+
+std::vector<Chooser> all_choosers(const CostTable& costs) {
+  const auto tier = [&costs](const char* name, auto* choose) {
+    return Chooser{name, [costs, choose](const sim::Problem& problem, const Job& job, int threads) {
+                     return choose(problem, job, costs, threads);
+                   }};
+  };
+  return {tier("pilot", by_pilot<Purpose::prediction>), tier("run", by_pilot<Purpose::one_search>),
+          tier("structural", by_workload<Rigor::structural>), tier("estimate", by_workload<Rigor::estimate>),
+          tier("measure", by_runs)};
+}
+
+const std::array<Baseline, 5>& baselines() {
+  using Candidates = std::vector<Candidate>;
+  static const std::array<Baseline, 5> all{
+      {{"best_constant", "best constant", false,
+        [](const Workload& /*workload*/) {
+          Candidates trees;
+          for (const int fan_out : {4, 8, 16})
+            for (const int leaf : {16, 64}) trees.push_back({Technique::box_tree, BoxTreeParameters{fan_out, leaf}});
+          return trees;
+        }},
+       {"usual_shape", "usual shape", true,
+        [](const Workload& workload) {
+          return Candidates{{Technique::box_tree, usual_shape(workload.rays, workload.samples)}};
+        }},
+       {"paper_rule", "paper's rule", true,
+        [](const Workload& workload) { return Candidates{model::paper_rule(workload)}; }},
+       {"always_embree", "always Embree", false,
+        [](const Workload& /*workload*/) {
+          return Candidates{{Technique::bvh, BvhParameters{BuildQuality::low}},
+                            {Technique::bvh, BvhParameters{BuildQuality::medium}}};
+        }},
+       {"always_brute_force", "always brute force", false,
+        [](const Workload& /*workload*/) { return Candidates{default_candidate(Technique::brute_force)}; }}}};
+  return all;
+}
 
 RegretResult run_regret(std::span<const BenchWorkload> workloads, std::span<const Chooser> choosers,
                         const RegretOptions& options) {

@@ -103,11 +103,7 @@ Json all_regrets_json(const RegretAnswer& answer) {
   Json json = regret_summary_json(answer.summaries.front());
   json["by_threads"] = Json::array();
   for (const RegretSummary& summary : answer.summaries) json["by_threads"].push_back(regret_summary_json(summary));
-  json["worst"] = Json::array();
-  for (const ChoicePlace& place : worst_choices(answer.result.rows, most_worst_choices)) {
-    const RegretRow& row = answer.result.rows[place.row];
-    json["worst"].push_back(json_of(tier_fields(), TierRow{&row, &row.choices[place.choice]}));
-  }
+  json["worst"] = rows_json(tier_fields(), worst_choices(answer.result.rows, most_worst_choices));
   return json;
 }
 
@@ -194,10 +190,7 @@ const Fields<TierRow>& tier_fields() {
           .in(parameter_columns()),
       {"chosen_threads", "", "number", [](const Row& row) { return row.choice->choice.prediction.threads; }},
       {"predicted_seconds", "s", "of the choice; null: not predicted, only guessed",
-       [](const Row& row) {
-         const double seconds = row.choice->choice.predicted_seconds();
-         return seconds > 0 ? Json(seconds) : Json();
-       }},
+       [](const Row& row) { return row.choice->choice.predicted_seconds(); }},
       {"choosing_seconds", "s", "that choosing took",
        [](const Row& row) { return row.choice->choice.choosing_seconds; }},
       {"seconds", "s", "of the choice, measured", [](const Row& row) { return row.choice->seconds; }},
@@ -223,11 +216,7 @@ const Fields<TierRow>& tier_fields() {
 const Fields<RegretAnswer>& regret_fields() {
   static const Fields<RegretAnswer> fields{
       {"rows", "", "a row for each workload, number of threads and tier",
-       [](const RegretAnswer& answer) {
-         Json rows = Json::array();
-         for (const TierRow& row : tier_rows(answer)) rows.push_back(json_of(tier_fields(), row));
-         return rows;
-       }},
+       [](const RegretAnswer& answer) { return rows_json(tier_fields(), tier_rows(answer)); }},
       {"summary", "", "regrets, prices and errors of predictions of each tier and baseline, and the worst choices",
        all_regrets_json},
       {"skipped", "", "workloads that were not run, and why",

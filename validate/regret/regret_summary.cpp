@@ -1,4 +1,4 @@
-#include "regret_summary.hpp"
+#include "regret_answer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,8 +30,8 @@ PredictionFigures prediction_figures(const RegretRows& rows, std::size_t tier) {
   std::vector<double> errors;
   for (const RegretRow* row : rows) {
     const ChoiceRow& one = row->choices[tier];
-    if (one.choice.predicted_seconds() > 0 && !one.regret.at_least)
-      errors.push_back(std::abs(one.choice.predicted_seconds() / one.seconds - 1));
+    if (const auto predicted = one.choice.predicted_seconds(); predicted && !one.regret.at_least)
+      errors.push_back(std::abs(*predicted / one.seconds - 1));
   }
   if (errors.empty()) return {};
   return {errors.size(), median(errors), quantile(errors, 0.95)};
@@ -104,16 +104,14 @@ RegretSummary summarise(std::span<const RegretRow> rows, int threads) {
   return summary;
 }
 
-std::vector<ChoicePlace> worst_choices(std::span<const RegretRow> rows, std::size_t most) {
-  std::vector<ChoicePlace> places;
-  for (std::size_t row = 0; row < rows.size(); ++row)
-    for (std::size_t choice = 0; choice < rows[row].choices.size(); ++choice)
-      if (!rows[row].is_best(rows[row].choices[choice].choice)) places.push_back({row, choice});
-  const auto regret = [&](const ChoicePlace& place) { return rows[place.row].choices[place.choice].regret.value; };
-  std::stable_sort(places.begin(), places.end(),
-                   [&](const ChoicePlace& a, const ChoicePlace& b) { return regret(a) > regret(b); });
-  places.resize(std::min(places.size(), most));
-  return places;
+std::vector<TierRow> worst_choices(std::span<const RegretRow> rows, std::size_t most) {
+  std::vector<TierRow> worst;
+  for (const RegretRow& row : rows)
+    for (const ChoiceRow& choice : row.choices)
+      if (!row.is_best(choice.choice)) worst.push_back({&row, &choice});
+  std::ranges::stable_sort(worst, std::greater(), [](const TierRow& one) { return one.choice->regret.value; });
+  worst.resize(std::min(worst.size(), most));
+  return worst;
 }
 
 }  // namespace detp::validate

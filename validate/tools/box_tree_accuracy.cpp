@@ -14,6 +14,8 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <map>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -60,10 +62,6 @@ Counts<double> structural(const Tree& tree, std::uint64_t set) {
   return validate::structural_counts(discs, tree.rays, {Technique::box_tree, tree.parameters});
 }
 
-struct Deviations {
-  std::array<std::vector<double>, terms.size()> one_set, mean;
-};
-
 void print(std::string_view name, std::vector<double> all) {
   std::sort(all.begin(), all.end());
   fmt::print("{:<28} median {:5.1f} %, 95th percentile {:5.1f} %, worst {:6.1f} %\n", name, 100 * all[all.size() / 2],
@@ -71,7 +69,7 @@ void print(std::string_view name, std::vector<double> all) {
 }
 
 void compare(std::uint64_t seed, std::uint64_t trees, double least, double most) {
-  std::array<Deviations, 2> deviations;
+  std::map<std::string, std::vector<double>> deviations;  // by what is compared
   double seconds = 0;
   for (std::uint64_t number = 0; number < trees; ++number) {
     const Tree tree = random_tree(seed, number, least, most);
@@ -82,17 +80,19 @@ void compare(std::uint64_t seed, std::uint64_t trees, double least, double most)
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const std::size_t sets = std::clamp<std::size_t>((std::size_t{1} << 17) / tree.samples, 1, 256);
     Counts<double> sum;
-    Deviations& of_dimension = deviations[static_cast<std::size_t>(tree.dimension - 2)];
     for (std::size_t set = 0; set < sets; ++set) {
       const Counts<double> counted = structural(tree, (seed << 32) + (number << 8) + set);
       for (std::size_t term = 0; term < terms.size(); ++term) {
         sum.*terms[term] += counted.*terms[term] / static_cast<double>(sets);
-        if (set == 0) of_dimension.one_set[term].push_back(std::abs(expected.*terms[term] / counted.*terms[term] - 1));
+        if (set > 0) continue;
+        const double deviation = std::abs(expected.*terms[term] / counted.*terms[term] - 1);
+        deviations[fmt::format("{}, D = {}, one set", names[term], tree.dimension)].push_back(deviation);
+        deviations[fmt::format("{}, both, one set", names[term])].push_back(deviation);
       }
     }
     for (std::size_t term = 0; term < terms.size(); ++term) {
       const double deviation = expected.*terms[term] / sum.*terms[term] - 1;
-      of_dimension.mean[term].push_back(std::abs(deviation));
+      deviations[fmt::format("{}, D = {}, mean", names[term], tree.dimension)].push_back(std::abs(deviation));
       if (std::abs(deviation) > 0.12)
         fmt::print("  {:+.1f} % of the mean {}: D = {}, {} samples, d {:.3g}, {} a node, {} a leaf\n", 100 * deviation,
                    names[term], tree.dimension, tree.samples, tree.radius, tree.parameters.fan_out,
@@ -101,16 +101,11 @@ void compare(std::uint64_t seed, std::uint64_t trees, double least, double most)
   }
   fmt::print("n_P 2^{} ... 2^{}, {} trees, {:.0f} us for each closed form\n", least, most, trees,
              1e6 * seconds / static_cast<double>(trees));
-  for (std::size_t term = 0; term < terms.size(); ++term) {
-    for (const int dimension : {2, 3}) {
-      const Deviations& all = deviations[static_cast<std::size_t>(dimension - 2)];
-      print(fmt::format("{}, D = {}, one set", names[term], dimension), all.one_set[term]);
-      print(fmt::format("{}, D = {}, mean", names[term], dimension), all.mean[term]);
+  for (const char* term : names)
+    for (const char* sets : {"D = 2, one set", "D = 2, mean", "D = 3, one set", "D = 3, mean", "both, one set"}) {
+      const std::string name = fmt::format("{}, {}", term, sets);
+      print(name, deviations[name]);
     }
-    std::vector<double> both = deviations[0].one_set[term];
-    both.insert(both.end(), deviations[1].one_set[term].begin(), deviations[1].one_set[term].end());
-    print(fmt::format("{}, both, one set", names[term]), both);
-  }
 }
 
 }  // namespace

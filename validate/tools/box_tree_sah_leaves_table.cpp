@@ -18,52 +18,35 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <vector>
 
 #include "detp/model/vocabulary/box_tree_split.hpp"
+#include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/disc_box.hpp"
 #include "detp/sim/geometry/random.hpp"
 
 namespace {
 
 using namespace detp;
-using Triple = std::array<double, 3>;
+using sim::Box;
+using sim::Disc;
 
 constexpr std::uint64_t seed = 20261122;
 constexpr int sets = 40'000;
 
-struct SmallDisc {
-  Triple centre;
-  Triple reach;  ///< half the sides of the disc's box
-};
-
-struct Box {
-  Triple low{1e9, 1e9, 1e9};
-  Triple high{-1e9, -1e9, -1e9};
-
-  void include(const Triple& from, const Triple& to) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], from[axis]);
-      high[axis] = std::max(high[axis], to[axis]);
-    }
-  }
-
-  [[nodiscard]] double area() const {
-    const double x = high[0] - low[0];
-    const double y = high[1] - low[1];
-    const double z = high[2] - low[2];
-    return x * y + y * z + z * x;
-  }
-};
+/// Half the area of the box.
+double area_of(const Box& box) {
+  const glm::dvec3 side = box.size();
+  return side.x * side.y + side.y * side.z + side.z * side.x;
+}
 
 struct Cell {
-  Triple low;
-  Triple side;
-  std::size_t axis;  ///< the axis across which the next cut is
-  std::size_t axes;  ///< number of axes that are cut in turn; 0: the cell is not cut
+  glm::dvec3 low;
+  glm::dvec3 side;
+  int axis;  ///< the axis across which the next cut is
+  int axes;  ///< number of axes that are cut in turn; 0: the cell is not cut
 
   [[nodiscard]] Cell half(bool upper) const {
     Cell cell = *this;
@@ -82,25 +65,18 @@ struct Built {
 };
 
 /// Moves the discs in the cell's lower half to the front, and returns their number.
-std::size_t divide(const Cell& cell, std::span<SmallDisc> discs) {
+std::size_t divide(const Cell& cell, std::span<Disc> discs) {
   if (cell.axes == 0) return discs.size() / 2;
   const double middle = cell.low[cell.axis] + cell.side[cell.axis] / 2;
-  const auto end = std::partition(discs.begin(), discs.end(),
-                                  [&](const SmallDisc& disc) { return disc.centre[cell.axis] < middle; });
+  const auto end =
+      std::partition(discs.begin(), discs.end(), [&](const Disc& disc) { return disc.centre[cell.axis] < middle; });
   return static_cast<std::size_t>(end - discs.begin());
 }
 
-Built build(Cell cell, std::span<SmallDisc> discs) {
-  Built node{};
+Built build(Cell cell, std::span<Disc> discs) {
   if (discs.size() == 1) {
-    Triple low;
-    Triple high;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = discs[0].centre[axis] - discs[0].reach[axis];
-      high[axis] = discs[0].centre[axis] + discs[0].reach[axis];
-    }
-    node.box.include(low, high);
-    return {node.box, node.box.area(), true};
+    const Box box = sim::bounds(discs[0], 0);
+    return {box, area_of(box), true};
   }
   std::size_t lower = divide(cell, discs);
   while (lower == 0 || lower == discs.size()) {
@@ -109,27 +85,20 @@ Built build(Cell cell, std::span<SmallDisc> discs) {
   }
   const Built left = build(cell.half(false), discs.first(lower));
   const Built right = build(cell.half(true), discs.subspan(lower));
-  node.box = left.box;
-  node.box.include(right.box.low, right.box.high);
-  const double area = node.box.area();
-  const double inner = box_tree_split::cull * area + box_tree_split::list * (left.box.area() + right.box.area()) +
+  Box box = left.box;
+  box.include(right.box.low);
+  box.include(right.box.high);
+  const double area = area_of(box);
+  const double inner = box_tree_split::cull * area + box_tree_split::list * (area_of(left.box) + area_of(right.box)) +
                        left.cost + right.cost;
   const double as_leaf = static_cast<double>(discs.size()) * area;
-  return {node.box, std::min(as_leaf, inner), as_leaf <= inner};
+  return {box, std::min(as_leaf, inner), as_leaf <= inner};
 }
 
-SmallDisc random_disc(const Cell& cell, bool edge, double radius, std::uint64_t number) {
+Disc random_disc(const Cell& cell, bool edge, double radius, std::uint64_t number) {
   const auto place = sim::uniform4(seed, sim::Stream::tests, number);
   const auto turn = sim::uniform4(seed, sim::Stream::tests, number, 1);
-  const double z = 2 * turn[0] - 1;
-  const double angle = 2 * std::numbers::pi * turn[1];
-  const double across = std::sqrt(1 - z * z);
-  const Triple normal{across * std::cos(angle), across * std::sin(angle), z};
-  SmallDisc disc{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    disc.centre[axis] = cell.side[axis] * place[axis];
-    disc.reach[axis] = radius * std::sqrt(1 - normal[axis] * normal[axis]);
-  }
+  Disc disc{cell.side * glm::dvec3(place[0], place[1], place[2]), sim::uniform_direction(turn[0], turn[1]), radius};
   if (edge) {  // on the lower face across x or z, with probabilities proportional to the areas of both faces
     const double of_x = cell.side[1] * cell.side[2];
     const double of_z = cell.side[0] * cell.side[1];
@@ -143,14 +112,14 @@ void print_nodes(const Cell& cell, bool edge, double radius, std::size_t discs, 
   double cost = 0;
   double leaves = 0;
   double leaf_area = 0;
-  std::vector<SmallDisc> some(discs);
+  std::vector<Disc> some(discs);
   for (int set = 0; set < sets;) {
-    for (SmallDisc& disc : some) disc = random_disc(cell, edge, radius, number++);
+    for (Disc& disc : some) disc = random_disc(cell, edge, radius, number++);
     const std::size_t lower = divide(cell, some);
     if (lower == 0 || lower == discs) continue;
     ++set;
     const Built node = build(cell, some);
-    const double area = node.box.area();
+    const double area = area_of(node.box);
     all += area;
     cost += node.cost;
     if (!node.leaf) continue;
@@ -168,8 +137,8 @@ void print_shape(const Cell& cell, bool edge, std::uint64_t& number) {
   }
 }
 
-void print_shapes(std::size_t axes, bool edge, std::uint64_t& number) {
-  Cell cell{{}, {1, 1, axes == 2 ? 0.0 : 1.0}, 0, axes};
+void print_shapes(int axes, bool edge, std::uint64_t& number) {
+  Cell cell{{0, 0, 0}, {1, 1, axes == 2 ? 0.0 : 1.0}, 0, axes};
   for (; cell.axis < axes; ++cell.axis) {
     print_shape(cell, edge, number);
     cell.side[cell.axis] = 0.5;
@@ -185,7 +154,7 @@ int main() {
   print_shapes(2, false, number);
   print_shapes(3, false, number);
   print_shapes(3, true, number);
-  print_shape({{}, {1, 1, 0}, 0, 0}, false, number);
-  print_shape({{}, {1, 1, 1}, 0, 0}, false, number);
+  print_shape({{0, 0, 0}, {1, 1, 0}, 0, 0}, false, number);
+  print_shape({{0, 0, 0}, {1, 1, 1}, 0, 0}, false, number);
   fmt::print("}}}};\n");
 }

@@ -2,6 +2,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <string>
+
 #include "detp/model/accuracy/estimate_error.hpp"
 #include "detp/model/disc_index/disc_index.hpp"
 #include "detp/model/disc_index/disc_index_published.hpp"
@@ -23,23 +25,21 @@ using namespace detp::model;
 const Workload volume = cube_workload(1e6, 1e5, 0.01, 2);
 const Workload surface = cube_workload(1e6, 1e5, 0.01, 2, 2);
 
-/// A ratio that changes from call to call, so that the compiler cannot reuse a result.
-class Ratios {
- public:
-  double next() { return last_ = last_ > 0.7 ? 0.6 : last_ + 1e-7; }
-
- private:
-  double last_ = 0.6;
-};
-
-template <class Evaluate>
-void time(benchmark::State& state, const Evaluate& evaluate) {
-  Ratios ratios;
-  for (auto _ : state) benchmark::DoNotOptimize(evaluate(ratios.next()));
+Workload with_radius(double disc_radius) {
+  Workload workload = volume;
+  workload.disc_radius = disc_radius;
+  return workload;
 }
 
-void add(const char* name, auto evaluate) {
-  benchmark::RegisterBenchmark(name, [evaluate](benchmark::State& state) { time(state, evaluate); });
+/// Evaluates with a ratio that changes from call to call, so that the compiler cannot reuse a result.
+void add(const std::string& name, auto evaluate) {
+  benchmark::RegisterBenchmark(name.c_str(), [evaluate](benchmark::State& state) {
+    double ratio = 0.6;
+    for (auto _ : state) {
+      ratio = ratio > 0.7 ? 0.6 : ratio + 1e-7;
+      benchmark::DoNotOptimize(evaluate(ratio));
+    }
+  });
 }
 
 void add_formulas() {
@@ -50,32 +50,23 @@ void add_formulas() {
   add("both_hit_share", [](double q) { return both_hit_share(1, q, 0.5); });
   add("optimal_ratio", [](double q) { return optimal_ratio(2 + q); });
   add("uniform_field_deviation", [](double q) { return uniform_field_deviation(1e6, {q}, {2}); });
-  add("octree_counts, depth 6", [](double q) {
-    Workload w = volume;
-    w.disc_radius = 0.01 * q;
-    return octree_counts(w, {6}).disc_tests;
-  });
+  add("octree_counts, depth 6", [](double q) { return octree_counts(with_radius(0.01 * q), {6}).disc_tests; });
 }
 
 void add_sphere_cache() {
   for (const std::int64_t k : {1, 10, 100, 4096})
-    add(("sphere_cache_counts, volume, k " + std::to_string(k)).c_str(), [k](double q) {
+    add("sphere_cache_counts, volume, k " + std::to_string(k), [k](double q) {
       return sphere_cache_counts(volume, {q, k}).cull_tests;
     });
   add("sphere_cache_counts, surface, k 10", [](double q) { return sphere_cache_counts(surface, {q, 10}).cull_tests; });
 }
 
 void add_choices() {
-  const auto vary = [](double q) {
-    Workload w = volume;
-    w.disc_radius = 0.01 * q;
-    return w;
-  };
-  add("published::best_ratio", [=](double q) { return published::best_ratio(vary(q), {}).time; });
-  add("best_ratio_and_stop", [=](double q) { return best_ratio_and_stop(vary(q), {}).time; });
-  add("good_ratio_below", [=](double q) { return good_ratio_below(vary(q), {}, 1e300).time; });
-  add("best_stop, Q = 0.65", [=](double q) { return best_stop(vary(q), {}, {0.65}).time; });
-  add("rank all techniques", [=](double q) { return rank(vary(q), {}).size(); });
+  add("published::best_ratio", [](double q) { return published::best_ratio(with_radius(0.01 * q), {}).time; });
+  add("best_ratio_and_stop", [](double q) { return best_ratio_and_stop(with_radius(0.01 * q), {}).time; });
+  add("good_ratio_below", [](double q) { return good_ratio_below(with_radius(0.01 * q), {}, 1e300).time; });
+  add("best_stop, Q = 0.65", [](double q) { return best_stop(with_radius(0.01 * q), {}, {0.65}).time; });
+  add("rank all techniques", [](double q) { return rank(with_radius(0.01 * q), {}).size(); });
 }
 
 }  // namespace

@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "machine_peak.hpp"
-
 namespace detp::benchmarks {
 namespace {
 

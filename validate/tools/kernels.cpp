@@ -28,7 +28,6 @@
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "kernel_table.hpp"
-#include "machine_peak.hpp"
 
 namespace {
 
@@ -53,6 +52,16 @@ constexpr double load_flops = 2 * 30;
 double tested_bytes(bool segments) { return segments ? 6 * sizeof(float) : 4 * sizeof(float); }
 int arrays(bool segments) { return segments ? 7 : 5; }
 
+const char* name_of_rays(bool segments) { return segments ? "segments" : "lines"; }
+
+/// The first columns of a row.
+std::string label(const std::string& kernel, bool segments, const Level& level, double number, const char* unit) {
+  char text[120];
+  std::snprintf(text, sizeof text, "%s | %s | %s, %zu | %.0f%s", kernel.c_str(), name_of_rays(segments), level.name,
+                level.rays, number, unit);
+  return text;
+}
+
 /// Discs of radius 0.01 in the unit cube, lists of lines through the sphere around them, or of segments of such lines.
 class Scene {
  public:
@@ -72,16 +81,15 @@ class Scene {
   stream::RayList list(std::size_t size, bool segments) {
     stream::RayList list = memory_.allocate(size, segments);
     list.size = size;
+    const stream::RayList& from = lists_[0];
     for (std::size_t i = 0; i < size; ++i) {
-      const std::size_t j = i % lists_[0].size;
-      list.a[i] = lists_[0].a[j];
-      list.b[i] = lists_[0].b[j];
-      list.p[i] = lists_[0].p[j];
-      list.q[i] = lists_[0].q[j];
-      list.id[i] = lists_[0].id[j];
+      const std::size_t j = i % from.size;
+      list.id[i] = from.id[j];
+      for (const auto member : {&stream::RayList::a, &stream::RayList::b, &stream::RayList::p, &stream::RayList::q})
+        (list.*member)[i] = (from.*member)[j];
       if (!segments) continue;
-      list.from[i] = lists_[0].from[j];
-      list.to[i] = lists_[0].to[j];
+      list.from[i] = from.from[j];
+      list.to[i] = from.to[j];
     }
     return list;
   }
@@ -207,10 +215,7 @@ void add_cull(const std::string& name, bool segments, const Level& level, double
                   .stored = written,
                   .working_set = level.rays * sizeof(float) * static_cast<std::size_t>(arrays(segments)),
                   .packing = packed};
-  char label[120];
-  std::snprintf(label, sizeof label, "%s | %s | %s, %zu | %.0f %%", name.c_str(), segments ? "segments" : "lines",
-                level.name, level.rays, 100 * share);
-  add_row(label, work, [=, next = std::size_t{0}]() mutable {
+  add_row(label(name, segments, level, 100 * share, " %"), work, [=, next = std::size_t{0}]() mutable {
     stream::RayList to = inside;
     cull(tried.centres[next++ % shapes], tried.size, list, to);
     benchmark::DoNotOptimize(to.size);
@@ -253,10 +258,7 @@ void add_disc_tests(Scene& scene, bool segments, const Level& level, std::uint32
                   .stored = 0,
                   .working_set = level.rays * sizeof(float) * static_cast<std::size_t>(arrays(segments)),
                   .packing = 0};
-  char label[120];
-  std::snprintf(label, sizeof label, "disc | %s | %s, %zu | %u discs", segments ? "segments" : "lines", level.name,
-                level.rays, discs);
-  add_row(label, work, [=, &scene, first = std::uint32_t{0}]() mutable {
+  add_row(label("disc", segments, level, discs, " discs"), work, [=, &scene, first = std::uint32_t{0}]() mutable {
     static stream::Worker worker;
     test_discs(scene.search(segments), 0, first % 4096, discs, list, worker);
     first += discs;
@@ -272,12 +274,11 @@ void add_loading(Scene& scene, bool segments, std::size_t size) {
                   .stored = rays * 7 * sizeof(float),
                   .working_set = size * sizeof(Ray),
                   .packing = 0};
-  char label[120];
-  std::snprintf(label, sizeof label, "load_rays | %s | %zu |", segments ? "segments" : "lines", size);
-  add_row(label, work, [=, &scene]() mutable {
-    stream::RayLists to = lists;
-    benchmark::DoNotOptimize(load_rays(std::span(scene.rays()).first(size), scene.frame(), to));
-  });
+  add_row(std::string("load_rays | ") + name_of_rays(segments) + " | " + std::to_string(size) + " |", work,
+          [=, &scene]() mutable {
+            stream::RayLists to = lists;
+            benchmark::DoNotOptimize(load_rays(std::span(scene.rays()).first(size), scene.frame(), to));
+          });
 }
 
 }  // namespace

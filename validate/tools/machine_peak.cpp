@@ -1,4 +1,4 @@
-#include "machine_peak.hpp"
+#include "kernel_table.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "detp/validate/tools/machine_peak.cpp"

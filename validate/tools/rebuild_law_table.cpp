@@ -31,7 +31,6 @@
 #include <map>
 #include <string_view>
 
-#include "counted_spheres.hpp"
 #include "listed_rays_table.hpp"
 #include "sample_walk.hpp"
 
@@ -54,11 +53,8 @@ char digit(long value) {
 double balls(const Points& walk, double radius) { return moves(walk, {radius}).front(); }
 
 /// Sets of `samples` samples each, with about `in_all` samples in total; 1 to 400 sets.
-std::vector<Points> sets_of(int dimension, std::size_t samples, std::size_t in_all) {
-  std::vector<Points> sets;
-  for (std::size_t set = 0; set < std::clamp<std::size_t>(in_all / samples, 1, 400); ++set)
-    sets.push_back(sorted_samples(dimension, samples, seed + set));
-  return sets;
+std::vector<Points> sets_with(int dimension, std::size_t samples, std::size_t in_all) {
+  return sets_of(dimension, samples, std::clamp<std::size_t>(in_all / samples, 1, 400), seed);
 }
 
 /// ln(m/n) of a ball alone. The ball's radius is at most 1/8 of the cube's side, so that the cube's faces matter
@@ -71,7 +67,7 @@ class SingleBall {
     while (row + dimension * halvings - halvings_to_row < 20) ++halvings;
     const auto samples = static_cast<std::size_t>(std::round(std::exp2(row + dimension * halvings - halvings_to_row)));
     auto& sets = sets_[{dimension, samples}];
-    if (sets.empty()) sets = sets_of(dimension, samples, 4 * samples);
+    if (sets.empty()) sets = sets_with(dimension, samples, 4 * samples);
     double sum = 0;
     for (const Points& walk : sets) sum += balls(walk, side * std::exp2(-halvings - phase / double(phases)));
     return std::log(sum / static_cast<double>(samples * sets.size()));
@@ -95,7 +91,7 @@ void print_coarse() {
   for (const int dimension : {2, 3})
     for (int column = 0; column <= 16; ++column) {
       const auto samples = static_cast<std::size_t>(std::llround(std::pow(10, 3 + column / 4.)));
-      const std::vector<Points> sets = sets_of(dimension, samples, 10'000'000);
+      const std::vector<Points> sets = sets_with(dimension, samples, 10'000'000);
       for (int step = -steps; step <= 9 * steps / 2; ++step) {
         double sum = 0;
         for (const Points& walk : sets) sum += balls(walk, side * std::exp2(-step / double(steps)));
@@ -116,7 +112,7 @@ class Chain {
     outer_.resize(static_cast<std::size_t>(steps_));
     nested_.resize(outer_.size());
     alone_.resize(outer_.size());
-    const std::vector<Points> sets = sets_of(dimension, samples, 4'000'000);
+    const std::vector<Points> sets = sets_with(dimension, samples, 4'000'000);
     for (const Points& walk : sets) {
       for (int step = 0; step < steps_; ++step) alone_[static_cast<std::size_t>(step)] += balls(walk, radius(step));
       for (std::size_t u = 0; u < chain_steps.size(); ++u)

@@ -28,6 +28,13 @@ inline Points sorted_samples(int dimension, std::size_t count, std::uint64_t see
   return walk;
 }
 
+/// `sets` such sets; each has a seed of its own, from `seed` on.
+inline std::vector<Points> sets_of(int dimension, std::size_t count, std::size_t sets, std::uint64_t seed) {
+  std::vector<Points> all;
+  for (std::size_t set = 0; set < sets; ++set) all.push_back(sorted_samples(dimension, count, seed + set));
+  return all;
+}
+
 /// Nested balls that follow the samples, the outermost first. A ball keeps its place while this ball and all balls
 /// around it contain the next samples.
 class NestedBalls {

@@ -1,4 +1,4 @@
-#include "detp/validate/bench/workload_sets.hpp"
+#include "detp/validate/bench/workload.hpp"
 
 #include <doctest/doctest.h>
 

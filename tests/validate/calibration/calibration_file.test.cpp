@@ -17,14 +17,14 @@ namespace {
 
 validate::Calibration some_calibration() {
   validate::Calibration calibration;
-  calibration.plain.costs = validate::built_in_unit_costs(Engine::plain);
-  calibration.simd.costs = validate::built_in_unit_costs();
-  calibration.simd.costs[Technique::grid].step = 1.25e-8;
-  calibration.plain.costs[Technique::box_tree].cull_test = 1.5e-8;
-  calibration.simd.costs.threads_of(Technique::bsp) = {.serial_preparing = 1, .serial_search = 0.0625, .start = 1.5e-5};
+  calibration.plain = validate::built_in_unit_costs(Engine::plain);
+  calibration.simd = validate::built_in_unit_costs();
+  calibration.simd[Technique::grid].step = 1.25e-8;
+  calibration.plain[Technique::box_tree].cull_test = 1.5e-8;
+  calibration.simd.threads_of(Technique::bsp) = {.serial_preparing = 1, .serial_search = 0.0625, .start = 1.5e-5};
   calibration.left_out_median_error = 0.0625;
   calibration.processor_share = 0.9375;
-  calibration.simd.costs.relative_error_of(Technique::box_tree) = 0.03125;
+  calibration.simd.relative_error_of(Technique::box_tree) = 0.03125;
   return calibration;
 }
 
@@ -41,7 +41,7 @@ TEST_SUITE("identity") {
     const support::ScratchFolder folder;
     const std::string path = folder.path("made/for/it/calibration.json");
     validate::write_calibration(path, some_calibration());
-    const validate::StoredCalibration stored = validate::read_calibration(path);
+    const validate::Calibration stored = validate::read_calibration(path);
     CHECK(stored.key == validate::this_machine());
     CHECK(stored.left_out_median_error == 0.0625);
     CHECK(stored.processor_share == 0.9375);
@@ -51,10 +51,10 @@ TEST_SUITE("identity") {
     CHECK(stored.simd.engine == Engine::simd);
     for (const Technique technique : all_techniques)
       if (record_of(technique).exact) {
-        CHECK(stored.simd.relative_error_of(technique) == written.simd.costs.relative_error_of(technique));
-        CHECK(stored.plain[technique] == written.plain.costs[technique]);
-        CHECK(stored.simd[technique] == written.simd.costs[technique]);
-        CHECK(stored.simd.threads_of(technique) == written.simd.costs.threads_of(technique));
+        CHECK(stored.simd.relative_error_of(technique) == written.simd.relative_error_of(technique));
+        CHECK(stored.plain[technique] == written.plain[technique]);
+        CHECK(stored.simd[technique] == written.simd[technique]);
+        CHECK(stored.simd.threads_of(technique) == written.simd.threads_of(technique));
       }
   }
 }

@@ -4,9 +4,9 @@
 
 #include <stdexcept>
 
-#include "detp/validate/bench/workload_sets.hpp"
+#include "detp/validate/bench/workload.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
-#include "detp/validate/regret/regret_summary.hpp"
+#include "detp/validate/regret/regret_answer.hpp"
 #include "support/attempts.hpp"
 #include "support/sanitized.hpp"
 

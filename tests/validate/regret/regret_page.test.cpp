@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "detp/validate/regret/regret_summary.hpp"
+#include "detp/validate/regret/regret_answer.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "support/pages.hpp"
 

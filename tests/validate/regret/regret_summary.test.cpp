@@ -1,4 +1,4 @@
-#include "detp/validate/regret/regret_summary.hpp"
+#include "detp/validate/regret/regret_answer.hpp"
 
 #include <doctest/doctest.h>
 
@@ -95,8 +95,8 @@ TEST_SUITE("known answer") {
     rows[3].best = rows[3].choices[0].choice.prediction.candidate;
     const auto two = worst_choices(rows, 2);
     REQUIRE(two.size() == 2);
-    CHECK(two[0].row == 1);
-    CHECK(two[1].row == 2);
+    CHECK(two[0].row == &rows[1]);
+    CHECK(two[1].row == &rows[2]);
     CHECK(worst_choices(rows, 10).size() == 3);
   }
 }

@@ -178,83 +178,62 @@ class EmbreeTracer {
 
   /// RayHit, Packet8, Packet16: RTCRay… for rtcOccluded, RTCRayHit… for rtcIntersect.
   template <class RayHit, class Packet8, class Packet16>
-  void trace(EmbreeRays form, std::size_t first, std::size_t last, RTCIntersectContext& context) const {
+  void trace(EmbreeRays form, const RayBlock& block, RTCIntersectContext& context) const {
     switch (form) {
       case EmbreeRays::one:
-        return single_rays<RayHit>(first, last, context);
+        return send<RayHit, 1>(block, context);
       case EmbreeRays::packet_8:
-        return packets<Packet8>(first, last, context);
+        return send<Packet8, 1>(block, context);
       case EmbreeRays::packet_16:
-        return packets<Packet16>(first, last, context);
+        return send<Packet16, 1>(block, context);
       case EmbreeRays::stream_of_rays:
-        return ray_streams<RayHit>(first, last, context);
+        return send<RayHit, stream>(block, context);
       case EmbreeRays::stream_of_packets:
-        return packet_streams<Packet8>(first, last, context);
+        return send<Packet8, stream / 8>(block, context);
     }
   }
 
  private:
-  /// Writes `count` rays from number `first` on into a packet. The other lanes are inactive as streams require: their
-  /// rays end before they start.
-  template <class Packet>
-  void write_packet(std::size_t first, std::size_t count, Packet& packet) const {
-    auto& rays = calls::ray_of(packet);
-    for (std::size_t lane = 0; lane < count; ++lane)
-      maker_.write(rays_[first + lane], static_cast<unsigned>(first + lane), rays, lane);
-    for (std::size_t lane = count; lane < calls::width<Packet>; ++lane) {
-      maker_.write(rays_[first], static_cast<unsigned>(first), rays, lane);
-      rays.tfar[lane] = -1;
-    }
-    calls::clear_hit(packet);
-  }
-
-  template <class RayHit>
-  void single_rays(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
-    RayHit ray{};
-    for (; first < last; ++first) {
-      maker_.write(rays_[first], static_cast<unsigned>(first), calls::ray_of(ray));
-      calls::clear_hit(ray);
-      calls::query(scene_, context, ray);
-    }
-  }
-
-  template <class RayHit>
-  void ray_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
-    std::array<RayHit, stream> rays{};
-    while (first < last) {
-      const std::size_t count = std::min(stream, last - first);
-      for (std::size_t i = 0; i < count; ++i) {
-        maker_.write(rays_[first + i], static_cast<unsigned>(first + i), calls::ray_of(rays[i]));
-        calls::clear_hit(rays[i]);
-      }
-      calls::query_stream(scene_, context, rays.data(), static_cast<unsigned>(count));
-      first += count;
-    }
-  }
-
-  template <class Packet>
-  void packets(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
-    constexpr std::size_t width = calls::width<Packet>;
-    Packet packet{};
-    alignas(64) std::array<int, width> valid{};
-    for (; first < last; first += width) {
-      const std::size_t count = std::min(width, last - first);
-      write_packet(first, count, packet);
-      for (std::size_t lane = 0; lane < width; ++lane) valid[lane] = lane < count ? -1 : 0;
-      calls::query(valid.data(), scene_, context, packet);
-    }
-  }
-
-  template <class Packet>
-  void packet_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
-    constexpr std::size_t width = calls::width<Packet>;
-    std::array<Packet, stream / width> sent{};
-    while (first < last) {
+  /// Sends the rays in single rays or packets, some in each call.
+  template <class Item, std::size_t in_a_call>
+  void send(const RayBlock& block, RTCIntersectContext& context) const {
+    constexpr std::size_t width = calls::width<Item>;
+    std::array<Item, in_a_call> sent{};
+    for (std::size_t first = block.first; first < block.last;) {
       unsigned filled = 0;
-      for (; filled < sent.size() && first < last; first += width)
-        write_packet(first, std::min(width, last - first), sent[filled++]);
-      calls::query_stream(scene_, context, sent.data(), filled);
+      std::size_t count = 0;  // of rays in the last item
+      for (; filled < in_a_call && first < block.last; first += width) {
+        count = std::min(width, block.last - first);
+        write(first, count, sent[filled++]);
+      }
+      if constexpr (in_a_call > 1) {
+        calls::query_stream(scene_, context, sent.data(), filled);
+      } else if constexpr (width > 1) {
+        alignas(64) std::array<int, width> valid{};
+        for (std::size_t lane = 0; lane < width; ++lane) valid[lane] = lane < count ? -1 : 0;
+        calls::query(valid.data(), scene_, context, sent.front());
+      } else {
+        calls::query(scene_, context, sent.front());
+      }
     }
+  }
+
+  /// Writes `count` rays from number `first` on into a ray or a packet. The other lanes are inactive as streams require: their
+  /// rays end before they start.
+  template <class Item>
+  void write(std::size_t first, std::size_t count, Item& item) const {
+    auto& rays = calls::ray_of(item);
+    if constexpr (calls::width<Item> == 1) {
+      maker_.write(rays_[first], static_cast<unsigned>(first), rays);
+    } else {
+      for (std::size_t lane = 0; lane < count; ++lane)
+        maker_.write(rays_[first + lane], static_cast<unsigned>(first + lane), rays, lane);
+      for (std::size_t lane = count; lane < calls::width<Item>; ++lane) {
+        maker_.write(rays_[first], static_cast<unsigned>(first), rays, lane);
+        rays.tfar[lane] = -1;
+      }
+    }
+    calls::clear_hit(item);
   }
 
   RTCScene scene_;
@@ -273,9 +252,9 @@ void trace(RTCScene scene, std::span<const sim::Ray> rays, const sim::Sphere& ar
   if (mode.coherent) collecting.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   const EmbreeTracer tracer(scene, rays, around);
   if (mode.query == EmbreeQuery::intersect)
-    tracer.trace<RTCRayHit, RTCRayHit8, RTCRayHit16>(mode.rays, block.first, block.last, collecting.context);
+    tracer.trace<RTCRayHit, RTCRayHit8, RTCRayHit16>(mode.rays, block, collecting.context);
   else
-    tracer.trace<RTCRay, RTCRay8, RTCRay16>(mode.rays, block.first, block.last, collecting.context);
+    tracer.trace<RTCRay, RTCRay8, RTCRay16>(mode.rays, block, collecting.context);
 }
 
 }  // namespace detp::validate

@@ -151,8 +151,8 @@ Json inputs_json(const BenchCommand& command, const validate::BenchAnswer& answe
             {"techniques", Json::array()},
             {"embree_modes", Json::array()},
             {"threads", options.threads},
-            {"repeat", options.repeats},
-            {"seconds_after_which_no_fourth_round_begins", options.most_seconds},
+            {"repeat", options.race.repeats},
+            {"seconds_after_which_no_fourth_round_begins", options.race.most_seconds},
             {"most_hits", options.most_hits}};
   for (const Technique technique : exact_techniques)
     if (options.techniques.empty() || std::ranges::find(options.techniques, technique) != options.techniques.end())

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "detp/validate/bench/bench_answer.hpp"
 #include "detp/validate/cli/text/result.hpp"
 #include "detp/validate/cli/text/screen.hpp"
@@ -15,9 +13,5 @@ namespace detp::cli {
 
 /// Marked as stopped if a stop request ended it.
 [[nodiscard]] Result report(const validate::RegretAnswer& answer, const Screen& screen);
-
-/// A line for each mesh that is missing, and for each workload that was skipped.
-[[nodiscard]] std::string left_out_text(const validate::BenchSet& set, const validate::SetProgress& progress,
-                                        const Screen& screen);
 
 }  // namespace detp::cli

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common_options.hpp"
-#include "detp/validate/calibration/costs_in_use.hpp"
+#include "detp/validate/calibration/calibration_file.hpp"
 
 /// --costs and --calibration: the unit costs of a command.
 namespace detp::cli {

@@ -23,8 +23,8 @@ struct UsersFiles {
 
   UsersFiles() {
     validate::Calibration made;
-    made.plain.costs = validate::built_in_unit_costs(Engine::plain);
-    made.simd.costs = validate::built_in_unit_costs();
+    made.plain = validate::built_in_unit_costs(Engine::plain);
+    made.simd = validate::built_in_unit_costs();
     validate::write_calibration(calibration, made);
   }
 

@@ -170,9 +170,9 @@ TEST_SUITE("end to end") {
     const std::string checkpoint = folder.path("checkpoint.json");
     const auto calibration = [&](const std::string& name, double factor) {  // of the tests of rays with discs
       validate::Calibration made;
-      made.plain.costs = validate::built_in_unit_costs(Engine::plain);
-      made.simd.costs = validate::built_in_unit_costs();
-      for (const Technique technique : all_techniques) made.simd.costs[technique].disc_test *= factor;
+      made.plain = validate::built_in_unit_costs(Engine::plain);
+      made.simd = validate::built_in_unit_costs();
+      for (const Technique technique : all_techniques) made.simd[technique].disc_test *= factor;
       validate::write_calibration(folder.path(name), made);
       return " --calibration " + folder.path(name);
     };
