@@ -18,18 +18,22 @@ namespace detp::validate {
 /// The value of a field that an answer does not have: neither JSON nor a table's row has it.
 [[nodiscard]] inline Json left_out() { return Json::value_t::discarded; }
 
-/// The value; left out if there is none.
+/// The value; an empty optional is left out.
+template <class T>
+[[nodiscard]] Json if_any(const T& value) {
+  return json_value(value);
+}
 template <class T>
 [[nodiscard]] Json if_any(const std::optional<T>& value) {
   return value ? json_value(*value) : left_out();
 }
 
-/// The value of a part that an answer may lack (an optional or a pointer), and then the field is left out.
+/// The value of a part that an answer may lack (an optional or a pointer); left out without the part, or without a value.
 template <class Part, class Value>
 [[nodiscard]] auto of_part(Part part, Value value) {
   return [part, value](const auto& answer) -> Json {
     const auto& one = std::invoke(part, answer);
-    return one ? json_value(std::invoke(value, *one)) : left_out();
+    return one ? if_any(std::invoke(value, *one)) : left_out();
   };
 }
 
@@ -91,6 +95,12 @@ struct Field {
 template <class Answer>
 using Fields = std::vector<Field<Answer>>;
 
+template <class Answer>
+[[nodiscard]] Fields<Answer> operator+(Fields<Answer> left, const Fields<Answer>& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
 /// Fields of a part of the answer; left out where the part is an optional or a pointer that is empty.
 template <class Answer, class Part, class PartOf>
 [[nodiscard]] Fields<Answer> fields_of_part(const Fields<Part>& fields, PartOf part) {
@@ -127,6 +137,14 @@ template <class Answer>
     if (field.in_json)
       if (Json value = field.value(answer); !value.is_discarded()) json[field.name] = std::move(value);
   return json;
+}
+
+/// An array: one object for each answer.
+template <class Answer>
+[[nodiscard]] Json list_json(const Fields<Answer>& fields, const std::vector<Answer>& answers) {
+  Json all = Json::array();
+  for (const Answer& one : answers) all.push_back(json_of(fields, one));
+  return all;
 }
 
 template <class Answer>

@@ -79,8 +79,11 @@ struct ChooseAnswer {
   /// Counted in a sample of rays, not by closed forms alone.
   [[nodiscard]] bool by_sample() const { return choice.rigor != Rigor::estimate; }
   /// The fastest measured candidate; null without one.
-  [[nodiscard]] const Analysed* fastest() const {
-    return analysis && analysis->best ? &analysis->candidates[*analysis->best] : nullptr;
+  [[nodiscard]] const Analysed* fastest() const { return analysis ? analysis->fastest() : nullptr; }
+  /// The standard error of the choice's predicted seconds, as far as it is known: of closed forms, that of unit costs.
+  [[nodiscard]] double error() const {
+    const Prediction& best = choice.best();
+    return by_sample() ? best.error : best.seconds() * costs.relative_error_of(best.candidate.technique);
   }
 };
 

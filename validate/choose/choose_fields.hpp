@@ -12,6 +12,9 @@ namespace detp::validate {
 /// Of a candidate: `candidates` in JSON, and the rows of the table.
 [[nodiscard]] const Fields<ChooseRow>& choose_row_fields();
 
+/// Of a candidate whose prediction is explained: `missed` in JSON.
+[[nodiscard]] const Fields<ChooseRow>& missed_fields();
+
 /// Of --ranks: `ranks` in JSON.
 [[nodiscard]] const Fields<RanksAnswer>& ranks_fields();
 

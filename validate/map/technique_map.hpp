@@ -65,9 +65,7 @@ struct MapCell {
   /// The candidate that is chosen; null if it is not known.
   [[nodiscard]] const Candidate* predicted() const { return choice ? &choice->best().candidate : nullptr; }
   /// The fastest measured candidate; null if the cell was not measured.
-  [[nodiscard]] const Analysed* fastest() const {
-    return analysis ? &analysis->candidates[analysis->best.value()] : nullptr;
-  }
+  [[nodiscard]] const Analysed* fastest() const { return analysis ? analysis->fastest() : nullptr; }
   /// Nothing if the cell was not measured.
   [[nodiscard]] std::optional<CellVerdict> verdict() const;
 };
