@@ -95,8 +95,9 @@ struct Field {
 template <class Answer>
 using Fields = std::vector<Field<Answer>>;
 
-template <class Answer>
-[[nodiscard]] Fields<Answer> operator+(Fields<Answer> left, const Fields<Answer>& right) {
+/// One list after the other.
+template <class T>
+[[nodiscard]] std::vector<T> operator+(std::vector<T> left, const std::vector<T>& right) {
   left.insert(left.end(), right.begin(), right.end());
   return left;
 }

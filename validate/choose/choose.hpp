@@ -10,6 +10,7 @@
 #include "detp/model/ranks/ranks.hpp"
 #include "detp/sim/base/progress.hpp"
 #include "detp/sim/effects/observe.hpp"
+#include "detp/validate/answer/fields.hpp"
 #include "detp/validate/choice/analysis.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/choice/tips.hpp"
@@ -131,5 +132,20 @@ struct ChooseRow {
 
 /// Of the rows whose prediction is explained: the predicted choice, and the fastest candidate if it is another one.
 [[nodiscard]] std::vector<ChooseRow> explained_rows(const ChooseAnswer& answer);
+
+/// Of the whole answer: JSON, and the last columns of the table.
+[[nodiscard]] const Fields<ChooseAnswer>& choose_fields();
+
+/// Of a candidate: `candidates` in JSON, and the rows of the table.
+[[nodiscard]] const Fields<ChooseRow>& choose_row_fields();
+
+/// Of a candidate whose prediction is explained: `missed` in JSON.
+[[nodiscard]] const Fields<ChooseRow>& missed_fields();
+
+/// Of --ranks: `ranks` in JSON.
+[[nodiscard]] const Fields<RanksAnswer>& ranks_fields();
+
+/// What the fields of the answer and of its rows mean.
+[[nodiscard]] std::vector<FieldText> describe_choose();
 
 }  // namespace detp::validate

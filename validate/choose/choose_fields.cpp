@@ -1,7 +1,6 @@
-#include "choose_fields.hpp"
-
 #include <algorithm>
 
+#include "choose.hpp"
 #include "detp/validate/answer/parts.hpp"
 
 namespace detp::validate {
@@ -184,6 +183,10 @@ const Fields<ChooseAnswer>& choose_fields() {
     return all;
   }();
   return fields;
+}
+
+std::vector<FieldText> describe_choose() {
+  return describe_fields(choose_fields()) + describe_fields(choose_row_fields());
 }
 
 }  // namespace detp::validate

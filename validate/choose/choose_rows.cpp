@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "choose_fields.hpp"
+#include "choose.hpp"
 #include "detp/validate/answer/parts.hpp"
 
 namespace detp::validate {

@@ -181,6 +181,8 @@ const Fields<TechniqueMap>& map_fields() {
   return fields;
 }
 
+std::vector<FieldText> describe_map() { return describe_fields(map_fields()) + describe_fields(map_cell_fields()); }
+
 std::string radius_label(const Length& radius) {
   return radius.relative ? fmt::format("{:.3g} %", 100 * radius.value) : fmt::format("{:.3g}", radius.value);
 }
