@@ -27,9 +27,9 @@ struct RanksRequest {
 };
 
 struct ChooseRequest {
-  JobRequest job;
-  CostTable costs;           ///< seconds; their engine runs the candidates
-  std::string costs_origin;  ///< "of each operation: built in, ..."
+  JobRequest job = {};
+  CostTable costs = {};           ///< seconds; their engine runs the candidates
+  std::string costs_origin = {};  ///< "of each operation: built in, ..."
   /// default: a pilot where there are rays, and closed forms for numbers; measure: the fastest of the analysis is the choice
   std::optional<Rigor> rigor = {};
   bool analyze = false;                       ///< run the candidates; always with Rigor::measure

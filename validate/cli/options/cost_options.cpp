@@ -103,13 +103,6 @@ nlohmann::ordered_json to_json(const CostTable& costs) {
   return json;
 }
 
-std::string zero_costs(const UnitCosts& costs) {
-  std::string list;
-  for (const UnitCostTerm& one : unit_cost_terms)
-    if (costs.*one.cost == 0) list += fmt::format("{}{}", list.empty() ? "" : ", ", one.symbol);
-  return list;
-}
-
 void note_doubt(const CostsInUse& costs, const CommonOptions& common) {
   if (costs.doubt.empty()) return;
   note(common,

@@ -26,9 +26,6 @@ namespace detp::cli {
 /// are left out.
 [[nodiscard]] nlohmann::ordered_json to_json(const CostTable& costs);
 
-/// The names of the costs that are 0: "t, u".
-[[nodiscard]] std::string zero_costs(const UnitCosts& costs);
-
 struct CostsInUse {
   CostTable simd;
   CostTable plain;
