@@ -18,18 +18,22 @@ namespace detp::validate {
 /// The value of a field that an answer does not have: neither JSON nor a table's row has it.
 [[nodiscard]] inline Json left_out() { return Json::value_t::discarded; }
 
-/// The value; left out if there is none.
+/// The value; an empty optional is left out.
+template <class T>
+[[nodiscard]] Json if_any(const T& value) {
+  return json_value(value);
+}
 template <class T>
 [[nodiscard]] Json if_any(const std::optional<T>& value) {
   return value ? json_value(*value) : left_out();
 }
 
-/// The value of a part that an answer may lack (an optional or a pointer), and then the field is left out.
+/// The value of a part that an answer may lack (an optional or a pointer); left out without the part, or without a value.
 template <class Part, class Value>
 [[nodiscard]] auto of_part(Part part, Value value) {
   return [part, value](const auto& answer) -> Json {
     const auto& one = std::invoke(part, answer);
-    return one ? json_value(std::invoke(value, *one)) : left_out();
+    return one ? if_any(std::invoke(value, *one)) : left_out();
   };
 }
 
@@ -126,8 +130,9 @@ struct Field {
 template <class Answer>
 using Fields = std::vector<Field<Answer>>;
 
-template <class Answer>
-[[nodiscard]] Fields<Answer> operator+(Fields<Answer> left, const Fields<Answer>& right) {
+/// One list after the other.
+template <class T>
+[[nodiscard]] std::vector<T> operator+(std::vector<T> left, const std::vector<T>& right) {
   left.insert(left.end(), right.begin(), right.end());
   return left;
 }
@@ -246,11 +251,6 @@ struct FieldText {
   std::string meaning;
   Columns columns;
 };
-[[nodiscard]] inline std::vector<FieldText> operator+(std::vector<FieldText> left,
-                                                      const std::vector<FieldText>& right) {
-  left.insert(left.end(), right.begin(), right.end());
-  return left;
-}
 
 template <class Answer>
 [[nodiscard]] std::vector<FieldText> describe_fields(const Fields<Answer>& fields) {

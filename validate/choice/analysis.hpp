@@ -35,6 +35,9 @@ struct Analysis {
   /// of the regret: half the ranges of both candidates' timed runs, together, over the shortest time
   double regret_error = 0;
   bool stopped = false;  ///< true if a stop was requested: some candidates may not have been run and timed
+
+  /// The candidate with the shortest measured time; null without one.
+  [[nodiscard]] const Analysed* fastest() const { return best ? &candidates[*best] : nullptr; }
 };
 
 struct AnalysisOptions {

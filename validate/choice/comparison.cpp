@@ -29,54 +29,6 @@ Counts<double> least_counts(const SearchSize& size, double hits) {
           .hits = hits};
 }
 
-class Comparison {
- public:
-  Comparison(const Question& question, const SearchSize& size, const Prices& prices, bool all, Choice& found)
-      : question_(question),
-        size_(size),
-        prices_(prices),
-        all_(all),
-        found_(found),
-        least_(least_counts(size, found.best().counts.hits)) {}
-
-  void compare(Technique technique) {
-    const double at_least = prices_(least_, technique).time.total();
-    if (at_least >= best()) return found_.ruled_out.push_back({technique, at_least, true});
-    if (!model::has_closed_form(technique) || !can_measure(question_) || !(all_ || worth_finding()))
-      return found_.unexamined.push_back(technique);
-    const model::SearchLimits limits{.threads = prices_.most_threads,
-                                     .stop = question_.stop,
-                                     .fastest = closed_form_doubt * best() * prices_.most_threads};  // on one thread
-    auto tuned = model::best_of(technique, workload(), prices_.costs, limits);
-    if (!tuned) return found_.unexamined.push_back(technique);
-    const double seconds = tuned->seconds();
-    if (seconds >= closed_form_doubt * best()) return found_.ruled_out.push_back({technique, seconds, false});
-    tuned->error = seconds * (closed_form_doubt - 1);
-    found_.candidates.push_back(std::move(*tuned));
-  }
-
-  [[nodiscard]] bool counted_scene() { return workload_ && model::is_counted_scene(*workload_); }
-
- private:
-  [[nodiscard]] double best() const { return found_.best().seconds(); }
-
-  /// Whether closed forms, and the measurements that they need, take less than some 2 % of the best.
-  [[nodiscard]] bool worth_finding() const { return best() > 50 * 0.0025; }
-
-  const Workload& workload() {
-    if (!workload_) workload_ = evidence(question_, size_.rays);
-    return *workload_;
-  }
-
-  const Question& question_;
-  SearchSize size_;
-  const Prices& prices_;
-  bool all_;
-  Choice& found_;
-  Counts<double> least_;
-  std::optional<Workload> workload_;
-};
-
 }  // namespace
 
 bool can_measure(const Question& question) {
@@ -154,11 +106,31 @@ Prediction priced(const Candidate& candidate, const Counts<double>& counted, con
 
 void compare_others(const Question& question, const SearchSize& size, const Prices& prices, bool all, double prepared,
                     Choice& found) {
-  Comparison comparison(question, size, prices, all, found);
+  const Counts<double> least = least_counts(size, found.best().counts.hits);
+  const auto best = [&] { return found.best().seconds(); };
+  // Whether closed forms, and the measurements that they need, take less than some 2 % of the best.
+  const auto worth_finding = [&] { return best() > 50 * 0.0025; };
+  std::optional<Workload> workload;  // measured when it is first needed
+  const auto compare = [&](Technique technique) {
+    const double at_least = prices(least, technique).time.total();
+    if (at_least >= best()) return found.ruled_out.push_back({technique, at_least, true});
+    if (!model::has_closed_form(technique) || !can_measure(question) || !(all || worth_finding()))
+      return found.unexamined.push_back(technique);
+    if (!workload) workload = evidence(question, size.rays);
+    const model::SearchLimits limits{.threads = prices.most_threads,
+                                     .stop = question.stop,
+                                     .fastest = closed_form_doubt * best() * prices.most_threads};  // on one thread
+    auto tuned = model::best_of(technique, *workload, prices.costs, limits);
+    if (!tuned) return found.unexamined.push_back(technique);
+    const double seconds = tuned->seconds();
+    if (seconds >= closed_form_doubt * best()) return found.ruled_out.push_back({technique, seconds, false});
+    tuned->error = seconds * (closed_form_doubt - 1);
+    found.candidates.push_back(std::move(*tuned));
+  };
   for (const Technique technique : exact_techniques)
     if (technique != Technique::box_tree && technique != Technique::brute_force && question.allows(technique))
-      comparison.compare(technique);
-  put_choice_first(found.candidates, comparison.counted_scene(), prepared);
+      compare(technique);
+  put_choice_first(found.candidates, workload && model::is_counted_scene(*workload), prepared);
 }
 
 }  // namespace detp::validate

@@ -43,8 +43,7 @@ class ShapeSearch {
       walk(&BoxTreeParameters::leaf, 4, 1024);
       walk(&BoxTreeParameters::fan_out, 4, 64);
     }
-    std::stable_sort(tried_.begin(), tried_.end(),
-                     [](const Prediction& a, const Prediction& b) { return a.seconds() < b.seconds(); });
+    std::ranges::stable_sort(tried_, {}, &Prediction::seconds);
     return std::move(tried_);
   }
 
@@ -52,8 +51,7 @@ class ShapeSearch {
   /// Returns true if the shape is the best so far, and was not tried before.
   bool consider(const BoxTreeParameters& shape) {
     const Candidate candidate{Technique::box_tree, shape};
-    for (const Prediction& one : tried_)
-      if (one.candidate == candidate) return false;
+    if (std::ranges::find(tried_, candidate, &Prediction::candidate) != tried_.end()) return false;
     const auto predicted = discs_.counts(shape, for_replans_);
     tried_.push_back(priced(candidate, predicted.counts, predicted.error, prices_));
     if (for_replans_)
@@ -76,10 +74,8 @@ class ShapeSearch {
   }
 
   [[nodiscard]] BoxTreeParameters best() const {
-    const auto least = std::min_element(tried_.begin(), tried_.end(), [](const Prediction& a, const Prediction& b) {
-      return a.seconds() < b.seconds();
-    });
-    return std::get<BoxTreeParameters>(least->candidate.parameters);
+    return std::get<BoxTreeParameters>(
+        std::ranges::min_element(tried_, {}, &Prediction::seconds)->candidate.parameters);
   }
 
   const sim::PilotedDiscs& discs_;

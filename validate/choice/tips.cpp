@@ -131,7 +131,7 @@ class TipFinder {
   /// A technique that is not ruled out there, but is with the present inputs.
   [[nodiscard]] std::optional<Technique> possible(const ChoiceThere& there) const {
     for (const Technique one : there.not_ruled_out)
-      if (std::find(now_.not_ruled_out.begin(), now_.not_ruled_out.end(), one) == now_.not_ruled_out.end()) return one;
+      if (std::ranges::find(now_.not_ruled_out, one) == now_.not_ruled_out.end()) return one;
     return std::nullopt;
   }
 
@@ -173,9 +173,7 @@ class TipFinder {
   /// Examines values that are farther and farther away.
   void walk(TipInput input, const std::vector<double>& values) {
     std::vector<Tip> tips;
-    const auto find = [&](TipKind kind) {
-      return std::find_if(tips.begin(), tips.end(), [&](const Tip& tip) { return tip.kind == kind; });
-    };
+    const auto find = [&](TipKind kind) { return std::ranges::find(tips, kind, &Tip::kind); };
     double before = present_[input];
     for (const double value : values) {
       const TipInputs inputs = with_value(present_, input, value);
@@ -190,7 +188,7 @@ class TipFinder {
       before = value;
     }
     const auto distance = [](const Tip& tip) { return std::abs(std::log(tip.ratio)); };
-    std::stable_sort(tips.begin(), tips.end(), [&](const Tip& a, const Tip& b) { return distance(a) < distance(b); });
+    std::ranges::stable_sort(tips, {}, distance);
     if (const auto last = find(TipKind::technique); last != tips.end()) tips.erase(last + 1, tips.end());
     found_.tips.insert(found_.tips.end(), tips.begin(), tips.end());
   }

@@ -10,6 +10,7 @@
 #include "detp/model/ranks/ranks.hpp"
 #include "detp/sim/base/progress.hpp"
 #include "detp/sim/effects/observe.hpp"
+#include "detp/validate/base/fields.hpp"
 #include "detp/validate/choice/analysis.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/choice/tips.hpp"
@@ -26,9 +27,9 @@ struct RanksRequest {
 };
 
 struct ChooseRequest {
-  JobRequest job;
-  CostTable costs;           ///< seconds; their engine runs the candidates
-  std::string costs_origin;  ///< "of each operation: built in, ..."
+  JobRequest job = {};
+  CostTable costs = {};           ///< seconds; their engine runs the candidates
+  std::string costs_origin = {};  ///< "of each operation: built in, ..."
   /// default: a pilot where there are rays, and closed forms for numbers; measure: the fastest of the analysis is the choice
   std::optional<Rigor> rigor = {};
   bool analyze = false;                       ///< run the candidates; always with Rigor::measure
@@ -79,8 +80,11 @@ struct ChooseAnswer {
   /// Counted in a sample of rays, not by closed forms alone.
   [[nodiscard]] bool by_sample() const { return choice.rigor != Rigor::estimate; }
   /// The fastest measured candidate; null without one.
-  [[nodiscard]] const Analysed* fastest() const {
-    return analysis && analysis->best ? &analysis->candidates[*analysis->best] : nullptr;
+  [[nodiscard]] const Analysed* fastest() const { return analysis ? analysis->fastest() : nullptr; }
+  /// The standard error of the choice's predicted seconds, as far as it is known: of closed forms, that of unit costs.
+  [[nodiscard]] double error() const {
+    const Prediction& best = choice.best();
+    return by_sample() ? best.error : best.seconds() * costs.relative_error_of(best.candidate.technique);
   }
 };
 
@@ -128,5 +132,20 @@ struct ChooseRow {
 
 /// Of the rows whose prediction is explained: the predicted choice, and the fastest candidate if it is another one.
 [[nodiscard]] std::vector<ChooseRow> explained_rows(const ChooseAnswer& answer);
+
+/// Of the whole answer: JSON, and the last columns of the table.
+[[nodiscard]] const Fields<ChooseAnswer>& choose_fields();
+
+/// Of a candidate: `candidates` in JSON, and the rows of the table.
+[[nodiscard]] const Fields<ChooseRow>& choose_row_fields();
+
+/// Of a candidate whose prediction is explained: `missed` in JSON.
+[[nodiscard]] const Fields<ChooseRow>& missed_fields();
+
+/// Of --ranks: `ranks` in JSON.
+[[nodiscard]] const Fields<RanksAnswer>& ranks_fields();
+
+/// What the fields of the answer and of its rows mean.
+[[nodiscard]] std::vector<FieldText> describe_choose();
 
 }  // namespace detp::validate

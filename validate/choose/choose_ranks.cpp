@@ -69,12 +69,6 @@ MakingTime making_time(const ChooseAnswer& answer, const std::stop_token& stop) 
   });
 }
 
-/// The standard error of the choice's predicted seconds, as far as it is known.
-double search_error(const ChooseAnswer& answer) {
-  const Prediction& best = answer.choice.best();
-  return answer.by_sample() ? best.error : best.seconds() * answer.costs.relative_error_of(best.candidate.technique);
-}
-
 }  // namespace
 
 RanksAnswer choose_ranks(const RanksRequest& request, const ChooseAnswer& answer, const std::stop_token& stop) {
@@ -116,7 +110,7 @@ RanksAnswer choose_ranks(const RanksRequest& request, const ChooseAnswer& answer
   const model::SharedTime& chosen = found.best();
   const double of_search = search.search_seconds > 0 ? chosen.search / search.search_seconds : 0;
   const double of_making = making.seconds > 0 ? (chosen.count + chosen.make) / making.seconds : 0;
-  found.error = std::hypot(of_search * search_error(answer), of_making * making.error);
+  found.error = std::hypot(of_search * answer.error(), of_making * making.error);
   return found;
 }
 

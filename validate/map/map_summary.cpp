@@ -43,7 +43,7 @@ Json predicted_json(const Choice& choice) {
 }
 
 Json measured_json(const Analysis& analysis) {
-  const Analysed& best = analysis.candidates[analysis.best.value()];
+  const Analysed& best = *analysis.fastest();
   const Analysed& predicted = analysis.candidates.front();
   Json json = json_of(candidate_fields(), best.candidate);
   json["seconds"] = best.seconds.value();
@@ -161,11 +161,7 @@ const Fields<TechniqueMap>& map_fields() {
          return axes;
        }},
       {"cells", "", "by disc radius, then by number of rays",
-       [](const TechniqueMap& map) {
-         Json cells = Json::array();
-         for (const PlacedCell& one : map.cells()) cells.push_back(json_of(map_cell_fields(), one));
-         return cells;
-       }},
+       [](const TechniqueMap& map) { return rows_json(map_cell_fields(), map.cells()); }},
       {"agreement", "", "of measured cells: where the prediction was right, and how much slower its choices are",
        [](const TechniqueMap& map) {
          const Agreement found = agreement_of(map);
@@ -184,6 +180,8 @@ const Fields<TechniqueMap>& map_fields() {
       {"unit_costs", "", "where they come from", &TechniqueMap::costs_origin}};
   return fields;
 }
+
+std::vector<FieldText> describe_map() { return describe_fields(map_fields()) + describe_fields(map_cell_fields()); }
 
 std::string radius_label(const Length& radius) {
   return radius.relative ? fmt::format("{:.3g} %", 100 * radius.value) : fmt::format("{:.3g}", radius.value);

@@ -31,6 +31,9 @@ struct Agreement {
 /// Of a cell: `cells` in JSON, and the rows of the table.
 [[nodiscard]] const Fields<PlacedCell>& map_cell_fields();
 
+/// What the fields of the map and of its cells mean.
+[[nodiscard]] std::vector<FieldText> describe_map();
+
 /// "4 %", or the length "0.02".
 [[nodiscard]] std::string radius_label(const Length& radius);
 

@@ -25,6 +25,12 @@ void require_few(std::string_view what, std::size_t values) {
                                         most_axis_values, what, values, most_axis_values));
 }
 
+/// Unless the list has it.
+template <class T>
+void add_new(std::vector<T>& list, const T& one) {
+  if (std::ranges::find(list, one) == list.end()) list.push_back(one);
+}
+
 class MapMaker {
  public:
   MapMaker(const MapRequest& request, const std::stop_token& stop, const sim::ReportPhase& progress)
@@ -72,10 +78,8 @@ class MapMaker {
     }
     map_.predicting_seconds = watch.seconds();
     const auto radius = [](const Made& one) { return one.row.workload.disc_radius; };
-    std::stable_sort(made_.begin(), made_.end(), [&](const Made& a, const Made& b) { return radius(a) < radius(b); });
-    const auto last =
-        std::unique(made_.begin(), made_.end(), [&](const Made& a, const Made& b) { return radius(a) == radius(b); });
-    made_.erase(last, made_.end());
+    std::ranges::stable_sort(made_, {}, radius);
+    made_.erase(std::ranges::unique(made_, {}, radius).begin(), made_.end());
   }
 
   void predict_row(std::size_t number, std::size_t rows) {
@@ -103,10 +107,6 @@ class MapMaker {
       row.cells.push_back({.rays = rays, .paper = model::paper_rule(with(row, rays))});
     for (MapCell& cell : row.cells) cell.choice = predict(only_numbers ? nullptr : &made.job, with(row, cell.rays));
     if (!request_.measure) made.job = {};
-  }
-
-  static void add_new(std::vector<std::string>& list, const std::string& text) {
-    if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
   }
 
   [[nodiscard]] static Workload with(const MapRow& row, double rays) {
@@ -137,11 +137,9 @@ class MapMaker {
   }
 
   [[nodiscard]] std::size_t predicted() const {
-    std::size_t cells = 0;
-    for (const Made& one : made_)
-      cells += static_cast<std::size_t>(std::count_if(one.row.cells.begin(), one.row.cells.end(),
-                                                      [](const MapCell& cell) { return cell.choice.has_value(); }));
-    return cells;
+    std::ptrdiff_t cells = 0;
+    for (const Made& one : made_) cells += std::ranges::count_if(one.row.cells, &MapCell::predicted);
+    return static_cast<std::size_t>(cells);
   }
 
   void measure_all() {
@@ -156,11 +154,10 @@ class MapMaker {
     for (Made& one : made_)
       for (MapCell& cell : one.row.cells) {
         constexpr double least = 1e-3;  // a guess; for progress only
-        places.push_back({&cell, &one.job, std::max(least, cell.choice->best().time.total())});
+        places.push_back({&cell, &one.job, std::max(least, cell.choice->best().seconds())});
         all += places.back().seconds;
       }
-    std::stable_sort(places.begin(), places.end(),
-                     [](const Place& a, const Place& b) { return a.seconds < b.seconds; });
+    std::ranges::stable_sort(places, {}, &Place::seconds);
     std::optional<MapCheckpoint> kept;
     try {
       kept = checkpoint();
@@ -172,7 +169,7 @@ class MapMaker {
     std::size_t done = 0;
     const auto share = [&](double seconds) { return share_of_predicting + (1 - share_of_predicting) * seconds / all; };
     for (const Place& place : places) {
-      const std::string name = cell_name(*place.job, *place.cell);
+      const std::string name = fmt::format("{} rays, radius {}", place.cell->rays, place.job->given.disc_radius);
       if (kept) place.cell->analysis = kept->find(name, place.cell->choice->candidates);
       if (!place.cell->analysis)
         measure(place.job, *place.cell, sim::part_of(progress_, share(before), share(before + place.seconds)));
@@ -186,10 +183,6 @@ class MapMaker {
     map_.measuring_seconds = watch.seconds();
   }
 
-  static std::string cell_name(const Job& job, const MapCell& cell) {
-    return fmt::format("{} rays, radius {}", cell.rays, job.given.disc_radius);
-  }
-
   /// Of this map's cells, whose rays, discs and choices are known; read if the map is resumed.
   [[nodiscard]] std::optional<MapCheckpoint> checkpoint() const {
     if (!request_.checkpoint) return std::nullopt;
@@ -197,7 +190,7 @@ class MapMaker {
     std::string choices;
     for (const Made& one : made_) {
       jobs.add(digest_of(one.job));
-      for (const MapCell& cell : one.row.cells) choices += title(cell.choice->best().candidate) + "; ";
+      for (const MapCell& cell : one.row.cells) choices += title(*cell.predicted()) + "; ";
     }
     std::string disabled;
     for (const Technique technique : request_.disabled) disabled += fmt::format("{} ", name(technique));
@@ -251,8 +244,7 @@ MapAxes checked(MapAxes axes) {
   std::sort(axes.rays.begin(), axes.rays.end());
   axes.rays.erase(std::unique(axes.rays.begin(), axes.rays.end()), axes.rays.end());
   std::vector<Length> different;
-  for (const Length& radius : axes.radii)
-    if (std::find(different.begin(), different.end(), radius) == different.end()) different.push_back(radius);
+  for (const Length& radius : axes.radii) add_new(different, radius);
   axes.radii = std::move(different);
   require_few("numbers of rays", axes.rays.size());
   require_few("disc radii", axes.radii.size());

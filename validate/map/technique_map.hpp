@@ -35,10 +35,10 @@ struct MapAxes {
 [[nodiscard]] MapAxes checked(MapAxes axes);
 
 struct MapRequest {
-  JobRequest job;  ///< its number of rays and its disc radius are replaced by those of the axes
+  JobRequest job = {};  ///< its number of rays and its disc radius are replaced by those of the axes
   /// an axis without values has the default ones; if a file decides, its number of rays, or its radii
   MapAxes axes = {};
-  CostTable costs;                  ///< seconds; their engine runs the candidates
+  CostTable costs = {};             ///< seconds; their engine runs the candidates
   std::string costs_origin = {};    ///< "of each operation: built in, ..."
   std::optional<Rigor> rigor = {};  ///< default: a pilot where there are rays, as `choose`
   bool measure = false;             ///< run the candidates of every cell (analyse)
@@ -65,9 +65,7 @@ struct MapCell {
   /// The candidate that is chosen; null if it is not known.
   [[nodiscard]] const Candidate* predicted() const { return choice ? &choice->best().candidate : nullptr; }
   /// The fastest measured candidate; null if the cell was not measured.
-  [[nodiscard]] const Analysed* fastest() const {
-    return analysis ? &analysis->candidates[analysis->best.value()] : nullptr;
-  }
+  [[nodiscard]] const Analysed* fastest() const { return analysis ? analysis->fastest() : nullptr; }
   /// Nothing if the cell was not measured.
   [[nodiscard]] std::optional<CellVerdict> verdict() const;
 };

@@ -20,7 +20,7 @@
 ///
 /// The sums are over all spheres of the hierarchy, each built once. Each sphere lies in its parent sphere, so its list
 /// holds exactly the rays that cross both the sphere and S₀. The share is 1 for a sphere inside S₀, else
-/// both_hit_share. Hits are left at 0. For a box tree (structural_boxes.hpp) the same sums are over boxes, except that
+/// both_hit_share. Hits are left at 0. For a box tree (structural_parts.hpp) the same sums are over boxes, except that
 /// the root is not tested. In a tree, `culls` is the expected number of nodes that get a list: nodes whose parent's
 /// list holds a ray. With cell-spheres, every sphere gets a list.
 ///

@@ -24,22 +24,18 @@ struct Lines {
   }
 };
 
-/// The expected counts of a search, without hits and loaded rays. One function for the parameters of each technique; one that has none can
-/// only be run. The parameters are checked. Throws as structural_counts.
-[[nodiscard]] Counts<double> counts_of(const sim::Problem& problem, const Lines& lines,
-                                       const SphereCacheParameters& parameters, const std::stop_token& stop);
-[[nodiscard]] Counts<double> counts_of(const sim::Problem& problem, const Lines& lines,
-                                       const CellSpheresParameters& parameters, const std::stop_token& stop);
-[[nodiscard]] Counts<double> counts_of(const sim::Problem& problem, const Lines& lines,
-                                       const SphereTreeParameters& parameters, const std::stop_token& stop);
-[[nodiscard]] Counts<double> counts_of(const sim::Problem& problem, const Lines& lines,
-                                       const BoxTreeParameters& parameters, const std::stop_token& stop);
-[[nodiscard]] Counts<double> counts_of(const sim::Problem& problem, const Lines& lines,
-                                       const OctreeParameters& parameters, const std::stop_token& stop);
-[[nodiscard]] Counts<double> counts_of(const sim::Problem& problem, const Lines& lines,
-                                       const GridParameters& parameters, const std::stop_token& stop);
-[[nodiscard]] Counts<double> counts_of(const sim::Problem& problem, const Lines& lines, const BspParameters& parameters,
-                                       const std::stop_token& stop);
+/// The expected counts of a search, without hits and loaded rays. A technique without such a function can only be run. The parameters are
+/// checked. Throws as structural_counts.
+template <class Own>
+using CountsOf = Counts<double>(const sim::Problem& problem, const Lines& lines, const Own& parameters,
+                                const std::stop_token& stop);
+CountsOf<SphereCacheParameters> counts_of;
+CountsOf<CellSpheresParameters> counts_of;
+CountsOf<SphereTreeParameters> counts_of;
+CountsOf<BoxTreeParameters> counts_of;
+CountsOf<OctreeParameters> counts_of;
+CountsOf<GridParameters> counts_of;
+CountsOf<BspParameters> counts_of;
 
 /// P, the share of the isotropic lines through S₀ that the cull of a box lists. The plain engine lists the lines that
 /// cross the box, P = F/(4π r₀²). The simd engine (cull_box of sim/lists/simd/kernels-inl.hpp) lists these lines and

@@ -6,7 +6,6 @@
 #include "choose_text.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "detp/validate/choose/choose_fields.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
 #include "detp/validate/cli/options/cost_options.hpp"

@@ -164,10 +164,9 @@ std::string measured_rival(const validate::Analysis& analysis) {
 
 std::string not_examined(const std::vector<Technique>& techniques) {
   constexpr std::size_t most_names = 3;
-  std::vector<std::string_view> names;
-  for (const Technique technique : techniques) names.push_back(name(technique));
-  return "; not examined, to save time: " + (names.size() <= most_names ? fmt::format("{}", fmt::join(names, ", "))
-                                                                        : fmt::format("{} techniques", names.size()));
+  return "; not examined, to save time: " + (techniques.size() <= most_names
+                                                 ? fmt::format("{}", fmt::join(names_of(techniques), ", "))
+                                                 : fmt::format("{} techniques", techniques.size()));
 }
 
 }  // namespace

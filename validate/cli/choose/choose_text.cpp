@@ -1,6 +1,7 @@
 #include "choose_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -17,17 +18,12 @@ constexpr std::size_t usual_width = 120;  // of which they are lines
 
 /// "0.0172 ± 0.009 s", and what the error does not cover.
 std::string predicted_seconds(const ChooseAnswer& answer) {
-  const auto& choice = answer.choice.best();
-  const double seconds = choice.seconds();
-  double error = 0;
-  const char* note = "";
-  if (answer.by_sample()) {
-    error = answer.choice.best().error;
-  } else {
-    error = seconds * answer.costs.relative_error_of(choice.candidate.technique);
-    note = error > 0 ? " (error of unit costs; that of its closed form is not known)" : " (its error is not known)";
-  }
-  return fmt::format("{:.3g}{} s{}", seconds, error > 0 ? fmt::format(" ± {:.1g}", error) : "", note);
+  const double error = answer.error();
+  const char* const note = answer.by_sample() ? ""
+                           : error > 0        ? " (error of unit costs; that of its closed form is not known)"
+                                              : " (its error is not known)";
+  return fmt::format("{:.3g}{} s{}", answer.choice.best().seconds(), error > 0 ? fmt::format(" ± {:.1g}", error) : "",
+                     note);
 }
 
 /// Other parameters of the chosen technique whose times cannot be told apart from the choice's: "; 5 other …".
@@ -66,9 +62,8 @@ std::string ruled_out_line(const validate::Choice& choice) {
 }
 
 std::string not_examined_line(const validate::Choice& choice) {
-  std::string list;
-  for (const Technique technique : choice.unexamined) list += (list.empty() ? "" : ", ") + std::string(name(technique));
-  return "unknown   " + list + ": to find out would take longer than it could save";
+  return fmt::format("unknown   {}: to find out would take longer than it could save",
+                     fmt::join(names_of(choice.unexamined), ", "));
 }
 
 std::string how_chosen(const ChooseAnswer& answer) {

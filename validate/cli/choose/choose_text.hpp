@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "detp/validate/choose/choose.hpp"
 #include "detp/validate/cli/options/common_options.hpp"
@@ -27,6 +29,12 @@ struct TextDetail {
 /// A line of the answer, broken where the screen ends; an empty one is left out.
 [[nodiscard]] inline std::string paragraph(const std::string& line, const Screen& screen) {
   return line.empty() ? "" : wrapped(line, screen.text_width(), 10);
+}
+
+[[nodiscard]] inline std::vector<std::string_view> names_of(const std::vector<Technique>& techniques) {
+  std::vector<std::string_view> names;
+  for (const Technique technique : techniques) names.push_back(name(technique));
+  return names;
 }
 
 /// The line "choice", in bold.

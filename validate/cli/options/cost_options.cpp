@@ -54,13 +54,6 @@ std::optional<UnitCosts> parse_unit_costs(const std::string& text) {
   return costs;
 }
 
-std::string zero_costs(const UnitCosts& costs) {
-  std::string list;
-  for (const UnitCostTerm& one : unit_cost_terms)
-    if (costs.*one.cost == 0) list += fmt::format("{}{}", list.empty() ? "" : ", ", one.symbol);
-  return list;
-}
-
 void note_doubt(const validate::CostsInUse& costs, const CommonOptions& common) {
   if (costs.doubt.empty()) return;
   note(common,

@@ -21,8 +21,6 @@ using validate::to_json;
 /// or not finite.
 [[nodiscard]] std::optional<UnitCosts> parse_unit_costs(const std::string& text);
 
-/// The names of the costs that are 0: "t, u".
-[[nodiscard]] std::string zero_costs(const UnitCosts& costs);
 
 /// Beside predicted seconds: a line on standard error if they are doubtful.
 void note_doubt(const CostsInUse& costs, const CommonOptions& common);
