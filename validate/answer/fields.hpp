@@ -82,6 +82,12 @@ struct Field {
 template <class Answer>
 using Fields = std::vector<Field<Answer>>;
 
+template <class Answer>
+[[nodiscard]] Fields<Answer> operator+(Fields<Answer> left, const Fields<Answer>& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
 /// Fields of a part of the answer.
 template <class Answer, class Part, class PartOf>
 [[nodiscard]] Fields<Answer> fields_of_part(const Fields<Part>& fields, PartOf part) {
@@ -156,6 +162,12 @@ template <class Answer>
   for (const Field<Answer>& field : fields)
     texts.push_back({field.in_json ? field.name : "", field.unit, field.meaning, columns_of(Fields<Answer>{field})});
   return texts;
+}
+
+[[nodiscard]] inline std::vector<FieldText> operator+(std::vector<FieldText> left,
+                                                      const std::vector<FieldText>& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
 }
 
 }  // namespace detp::validate
