@@ -24,14 +24,14 @@ struct Column {
 /// One field of an answer. Tables have it under its name, unless it says otherwise.
 template <class Answer>
 struct Field {
-  /// `value` of an answer: a member, or a function.
+  /// The value of an answer: a member, or a function.
   template <class Value>
-  Field(std::string name, std::string unit, std::string meaning, Value value)
-      : name(std::move(name)),
-        unit(std::move(unit)),
-        meaning(std::move(meaning)),
-        value([value](const Answer& answer) { return json_value(std::invoke(value, answer)); }),
-        columns{{this->name}} {}
+  Field(std::string its_name, std::string its_unit, std::string its_meaning, Value its_value)
+      : name(std::move(its_name)),
+        unit(std::move(its_unit)),
+        meaning(std::move(its_meaning)),
+        value([its_value](const Answer& answer) { return json_value(std::invoke(its_value, answer)); }),
+        columns{{name}} {}
 
   /// The same field under these columns; none: it stands in JSON alone.
   [[nodiscard]] Field in(std::vector<Column> other) const {
