@@ -97,35 +97,34 @@ void allow_for_rare_events(Finding& finding) {
   finding.observed.standard_error = std::max(finding.observed.standard_error, least);
 }
 
-/// For uniform samples, whose cube lies inside S₀: the closed form predicts the tests per line that hits the cube.
-Finding uniform_tests(const Workload& workload, const BatchNumbers& batches, int depth) {
-  const double overlapped = model::index_cells(workload, std::ldexp(1.0, depth)).overlapped;
-  return {.id = "octree-tests-per-line",
-          .quantity = fmt::format("ray-disc tests per line that hits the cube, octree of depth {}", depth),
-          .technique = std::string(name(Technique::octree)),
-          .predictions = {{Form::published, "eq (22), n_P / 4^k",
-                           model::published::tests_per_line(workload.samples, depth)},
-                          {Form::corrected, "n_P E(d/a) / 4^k, our derivation",
-                           workload.samples * overlapped / std::ldexp(1.0, 2 * depth)}},
-          .observed = ratio(batches, Counted::disc_tests, Counted::hitting)};
-}
-
-/// For a scene: predicts the tests per line through S₀. The cube of a flat scene extends outside S₀, so fewer lines hit
-/// the cube than its area predicts. The paper's tests per line that hits the cube are multiplied by P(line hits the
-/// cube).
-Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& discs, const BatchNumbers& batches,
-                    int depth) {
+/// Uniform samples' cube lies inside S₀: the closed form predicts the tests per line that hits the cube.
+///
+/// For a scene it predicts the tests per line through S₀. The cube of a flat scene extends outside S₀, so fewer lines hit the cube than its area
+/// predicts. The paper's tests per line that hits the cube are multiplied by P(line hits the cube).
+Finding tests_finding(const Experiment& experiment, const std::vector<sim::Disc>& discs, const BatchNumbers& batches,
+                      int depth) {
+  const Workload& workload = experiment.workload;
+  const double published = model::published::tests_per_line(workload.samples, depth);
+  const bool uniform = experiment.discs.empty();
+  Finding finding{.id = "octree-tests-per-line",
+                  .quantity = fmt::format("ray-disc tests per line {}, octree of depth {}",
+                                          uniform ? "that hits the cube" : "through S0", depth),
+                  .technique = std::string(name(Technique::octree)),
+                  .observed = ratio(batches, Counted::disc_tests, uniform ? Counted::hitting : Counted::lines)};
+  if (uniform) {
+    const double overlapped = model::index_cells(workload, std::ldexp(1.0, depth)).overlapped;
+    finding.predictions = {{Form::published, "eq (22), n_P / 4^k", published},
+                           {Form::corrected, "n_P E(d/a) / 4^k, our derivation",
+                            workload.samples * overlapped / std::ldexp(1.0, 2 * depth)}};
+    return finding;
+  }
   const double side = index_cube(discs).size().x;
   const double radius = sim::enclosing_sphere(discs).radius;
   const double per_cube = 1.5 / std::numbers::pi * side * side / (radius * radius);
-  return {.id = "octree-tests-per-line",
-          .quantity = fmt::format("ray-disc tests per line through S0, octree of depth {}", depth),
-          .technique = std::string(name(Technique::octree)),
-          .predictions = {{Form::published, "eq (22), n_P / 4^k, times P(cube)",
-                           model::published::tests_per_line(workload.samples, depth) * per_cube},
-                          {Form::corrected, "n_P E(d/a) P(cell), our derivation",
-                           model::octree_counts(workload, {depth}).disc_tests / workload.rays}},
-          .observed = ratio(batches, Counted::disc_tests, Counted::lines)};
+  finding.predictions = {{Form::published, "eq (22), n_P / 4^k, times P(cube)", published * per_cube},
+                         {Form::corrected, "n_P E(d/a) P(cell), our derivation",
+                          model::octree_counts(workload, {depth}).disc_tests / workload.rays}};
+  return finding;
 }
 
 Finding structural_tests(const std::vector<sim::Disc>& discs, const BatchNumbers& batches, int depth) {
@@ -159,8 +158,7 @@ std::vector<Finding> disc_index_findings(const Experiment& experiment) {
   const std::size_t lines = share_of_rays(experiment);
   const auto batches = count_batches(experiment, discs, {Technique::octree, OctreeParameters{depth}}, 21, lines);
   if (experiment.stop.stop_requested()) return {};
-  for (Finding& finding : completed({experiment.discs.empty() ? uniform_tests(workload, batches, depth)
-                                                              : scene_tests(workload, discs, batches, depth),
+  for (Finding& finding : completed({tests_finding(experiment, discs, batches, depth),
                                      structural_tests(discs, batches, depth), hits_finding(workload, discs, batches)},
                                     {.tolerance = index_tolerance, .lines = lines, .clock = clock})) {
     allow_for_rare_events(finding);

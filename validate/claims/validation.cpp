@@ -137,12 +137,16 @@ Json summary_json(const Claims& claims) {
 
 Json words_or_null(const std::string& words) { return words.empty() ? Json() : Json(words); }
 
-/// A field that claims have only if they were counted until their error was small.
-template <class Value>
-Field<Claim> of_refinement(std::string name, std::string unit, std::string meaning, Value value) {
-  return {std::move(name), std::move(unit), std::move(meaning), [value](const Claim& claim) {
-            return claim.refinement ? json_value((*claim.refinement).*value) : left_out();
-          }};
+/// Of claims that were counted until their error was small.
+const Fields<Refinement>& refinement_fields() {
+  static const Fields<Refinement> fields{
+      {"relative_error", "", "half width of the interval, over observed", &Refinement::relative_error},
+      {"reached", "", "relative_error is as small as asked", &Refinement::reached},
+      {"more_lines", "", "that the error would still take, by what is known", &Refinement::more_lines},
+      {"more_seconds", "s", "that these lines would take", &Refinement::more_seconds},
+      {"share_bound", "", "if nothing was met: bound of the share of lines that meet anything",
+       &Refinement::share_bound}};
+  return fields;
 }
 
 /// Of a claim's candidate: the last columns.
@@ -164,43 +168,39 @@ Columns with_new(Columns columns, const Columns& others) {
 }  // namespace
 
 const Fields<Claim>& claim_fields() {
-  static const Fields<Claim> fields{
-      {"id", "", "the quantity, and the form of the formula", &Claim::id},
-      {"quantity", "", "what is predicted and counted", &Claim::quantity},
-      {"form", "", "published: the paper's formula; corrected: ours", [](const Claim& one) { return name(one.form); }},
-      {"source", "", "equation of the paper, or our derivation", &Claim::source},
-      {"predicted", "", "by the formula", &Claim::predicted},
-      {"observed", "", "counted", [](const Claim& one) { return one.observed.mean; }},
-      {"standard_error", "", "of observed", [](const Claim& one) { return one.observed.standard_error; }},
-      {"relative_difference", "", "observed over predicted, less 1", &Claim::relative_difference},
-      {"tolerance", "", "relative difference that still counts as agreement", &Claim::tolerance},
-      {"detectable", "", "relative error of the formula that would be refuted with 97 %", &Claim::detectable},
-      {"verdict", "", "agrees, refuted or undecided", [](const Claim& one) { return name(one.verdict); }},
-      {"documented", "", "the corrected form says what is wrong in this published form", &Claim::documented},
-      Field<Claim>("control", "", "the same formula with an error that is just detectable; should be caught",
-                   [](const Claim& one) {
-                     return Json{{"offset", known(one.control_offset)},
-                                 {"predicted", known(one.control)},
-                                 {"verdict", control_name(one.control_verdict)}};
-                   })
-          .in({{"control_offset", "/offset"}, {"control_predicted", "/predicted"}, {"control_verdict", "/verdict"}}),
-      {"lines", "", "that were counted on", &Claim::lines},
-      {"seconds", "s", "of the experiment", &Claim::seconds},
-      of_refinement("relative_error", "", "half width of the interval, over observed", &Refinement::relative_error),
-      of_refinement("reached", "", "relative_error is as small as asked", &Refinement::reached),
-      of_refinement("more_lines", "", "that the error would still take, by what is known", &Refinement::more_lines),
-      of_refinement("more_seconds", "s", "that these lines would take", &Refinement::more_seconds),
-      of_refinement("share_bound", "", "if nothing was met: bound of the share of lines that meet anything",
-                    &Refinement::share_bound)};
+  static const Fields<Claim> fields =
+      Fields<Claim>{
+          {"id", "", "the quantity, and the form of the formula", &Claim::id},
+          {"quantity", "", "what is predicted and counted", &Claim::quantity},
+          {"form", "", "published: the paper's formula; corrected: ours",
+           [](const Claim& one) { return name(one.form); }},
+          {"source", "", "equation of the paper, or our derivation", &Claim::source},
+          {"predicted", "", "by the formula", &Claim::predicted},
+          {"observed", "", "counted", [](const Claim& one) { return one.observed.mean; }},
+          {"standard_error", "", "of observed", [](const Claim& one) { return one.observed.standard_error; }},
+          {"relative_difference", "", "observed over predicted, less 1", &Claim::relative_difference},
+          {"tolerance", "", "relative difference that still counts as agreement", &Claim::tolerance},
+          {"detectable", "", "relative error of the formula that would be refuted with 97 %", &Claim::detectable},
+          {"verdict", "", "agrees, refuted or undecided", [](const Claim& one) { return name(one.verdict); }},
+          {"documented", "", "the corrected form says what is wrong in this published form", &Claim::documented},
+          Field<Claim>("control", "", "the same formula with an error that is just detectable; should be caught",
+                       [](const Claim& one) {
+                         return Json{{"offset", known(one.control_offset)},
+                                     {"predicted", known(one.control)},
+                                     {"verdict", control_name(one.control_verdict)}};
+                       })
+              .in({{"control_offset", "/offset"},
+                   {"control_predicted", "/predicted"},
+                   {"control_verdict", "/verdict"}}),
+          {"lines", "", "that were counted on", &Claim::lines},
+          {"seconds", "s", "of the experiment", &Claim::seconds}} +
+      fields_of_part<Answer>(refinement_fields(), &Claim::refinement);
   return fields;
 }
 
 std::vector<FieldText> validate_fields() {
-  std::vector<FieldText> texts = describe_fields(claim_fields());
-  for (const auto& more :
-       {describe_fields(searched_fields()), describe_fields(summary_fields()), describe_fields(deviation_fields())})
-    texts.insert(texts.end(), more.begin(), more.end());
-  return texts;
+  return describe_fields(claim_fields()) + describe_fields(searched_fields()) + describe_fields(summary_fields()) +
+         describe_fields(deviation_fields());
 }
 
 bool ValidateAnswer::refuted() const {

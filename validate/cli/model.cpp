@@ -43,10 +43,10 @@ Measured measure(const ModelOptions& options, const CommonOptions& common, const
   request.workload_only = true;
   if (request.numbers_alone()) {
     const Workload workload = validate::workload_of_numbers(request);
-    std::string options = fmt::format("--samples {} --disc-radius {:.6g} --scene-side {:.6g}", workload.samples,
-                                      workload.disc_radius, scene_side(workload));
-    if (workload.dimension < 3) options += fmt::format(" --dimension {:.6g}", workload.dimension);
-    return {workload, numbers_json(workload), options};
+    std::string words = fmt::format("--samples {} --disc-radius {:.6g} --scene-side {:.6g}", workload.samples,
+                                    workload.disc_radius, scene_side(workload));
+    if (workload.dimension < 3) words += fmt::format(" --dimension {:.6g}", workload.dimension);
+    return {workload, numbers_json(workload), words};
   }
   const validate::Job job = validate::make_job(request, stop);
   note_all(common, job);

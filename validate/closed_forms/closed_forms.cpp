@@ -74,8 +74,11 @@ void corrected_cache(const ModelRequest& request, const SphereCacheParameters& c
 }
 
 ModelAnswer cache_answer(const ModelRequest& request) {
+  for (const auto& [parameter, value] : request.parameters.values)
+    if (find_parameter(request.technique, parameter) == nullptr)
+      throw std::invalid_argument(fmt::format("{} is no parameter of {}", parameter, name(request.technique)));
   const auto order = request.parameters.value<std::string_view>("order");
-  SphereCacheParameters cache{.order = order ? *choice_named<SampleOrder>(*order) : SampleOrder::lebesgue};
+  SphereCacheParameters cache{.order = order ? choice_named<SampleOrder>(*order).value() : SampleOrder::lebesgue};
   model::require_rebuild_law(cache.order);
   cache.ratio = request.parameters.value<double>("ratio").value_or(model::published_ratio);
   const RadiusRatio ratio{cache.ratio};

@@ -140,24 +140,19 @@ Json notes_json(const Answer& answer) { return answer.outlook.notes.empty() ? le
 
 /// All of the answer, as text shows it.
 const Fields<Answer>& answer_fields() {
-  static const Fields<Answer> fields = [] {
-    using One = Field<Answer>;
-    Fields<Answer> all;
-    const auto add = [&](const Fields<Answer>& more) { all.insert(all.end(), more.begin(), more.end()); };
-    add({One("parameters", "", "of the technique", [](const Answer& one) { return to_json(one.candidate); })
-             .in_json_alone(),
-         One("form", "", "published: the paper's; corrected: ours", [](const Answer& one) { return name(one.form); })});
-    add(fields_of_part<Answer>(stop_fields(), &Answer::stops));
-    add(fields_of_part<Answer>(index_fields(), &Answer::index));
-    add({One("spheres", "", "of a cache, or the levels of a hierarchy", spheres_json).in_json_alone()});
-    add(time_fields());
-    add({One("counts", "", "expected operations of a search", counts_json).as_counts("")});
-    add(fields_of_part<Answer>(growth_fields(), &Answer::outlook));
-    add(fields_of_part<Answer>(error_fields(), &Answer::outlook));
-    add({One("notes", "", "what some of these numbers mean", notes_json).in_json_alone(), extrapolated_field(),
-         One("extrapolated_because", "", "reasons", &Answer::extrapolated_because).in_json_alone()});
-    return all;
-  }();
+  using One = Field<Answer>;
+  static const Fields<Answer> fields =
+      Fields<Answer>{One("parameters", "", "of the technique", [](const Answer& one) { return to_json(one.candidate); })
+                         .in_json_alone(),
+                     One("form", "", "published: the paper's; corrected: ours",
+                         [](const Answer& one) { return name(one.form); })} +
+      fields_of_part<Answer>(stop_fields(), &Answer::stops) + fields_of_part<Answer>(index_fields(), &Answer::index) +
+      Fields<Answer>{One("spheres", "", "of a cache, or the levels of a hierarchy", spheres_json).in_json_alone()} +
+      time_fields() + Fields<Answer>{One("counts", "", "expected operations of a search", counts_json).as_counts("")} +
+      fields_of_part<Answer>(growth_fields() + error_fields(), &Answer::outlook) +
+      Fields<Answer>{One("notes", "", "what some of these numbers mean", notes_json).in_json_alone(),
+                     extrapolated_field(),
+                     One("extrapolated_because", "", "reasons", &Answer::extrapolated_because).in_json_alone()};
   return fields;
 }
 
@@ -193,11 +188,8 @@ const Fields<Outlook>& error_fields() {
 }
 
 std::vector<FieldText> model_fields() {
-  std::vector<FieldText> texts = describe_fields(answer_fields());
-  for (const auto& more :
-       {describe_fields(level_fields()), describe_fields(model_input_fields()), describe_fields(cost_fields())})
-    texts.insert(texts.end(), more.begin(), more.end());
-  return texts;
+  return describe_fields(answer_fields()) + describe_fields(level_fields()) + describe_fields(model_input_fields()) +
+         describe_fields(cost_fields());
 }
 
 Json inputs_of(const ModelRequest& request) {

@@ -147,7 +147,6 @@ struct Legend {
         ++line;
       }
       places.emplace_back(x, line * ChartLayout::legend_line);
-      if (series.name.empty()) continue;
       x += entry;
       height = (line + 1) * ChartLayout::legend_line;
     }
@@ -230,7 +229,6 @@ std::string chart_svg(const Chart& chart) {
   const double legend_top = bottom + ChartLayout::axis_room + 12;
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     const ChartSeries& series = chart.series[i];
-    if (series.name.empty()) continue;
     const auto [lx, ly] = legend.places[i];
     svg.mark(series.mark, lx + 6, legend_top + ly - 4, ChartLayout::mark_size, series.paint, series.filled);
     svg.text(lx + 16, legend_top + ly, series.name, {.size = ChartLayout::text_size});

@@ -24,7 +24,7 @@ struct ChartAxis {
 
 /// Points of one kind, in the order of their line if there is one.
 struct ChartSeries {
-  std::string name;  ///< in the legend; empty: not there
+  std::string name;  ///< in the legend
   Paint paint;
   Mark mark = Mark::circle;
   bool line = false;

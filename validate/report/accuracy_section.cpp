@@ -33,16 +33,14 @@ std::string interval_words(const std::optional<Interval>& one) {
 }
 
 std::vector<std::string> row_of(const Json& point, bool answer) {
-  const auto noise = number(point, "noise");
-  const auto bias = number(point, "bias");
-  const auto error = number(point, "error");
+  const std::string error = shown(point, "error", percent_label);
   return {words(point, "estimator"),
           words(point, "setting"),
-          number(point, "photons") ? count_words(*number(point, "photons")) : "",
-          noise ? percent_label(*noise) : "",
-          bias ? percent_label(*bias) : "",
-          error ? percent_label(*error) + interval_words(interval_at(point, "error_interval")) : "",
-          number(point, "predicted_seconds") ? seconds_label(*number(point, "predicted_seconds")) : "",
+          shown(point, "photons", count_words),
+          shown(point, "noise", percent_label),
+          shown(point, "bias", percent_label),
+          error.empty() ? "" : error + interval_words(interval_at(point, "error_interval")),
+          shown(point, "predicted_seconds", seconds_label),
           answer                              ? "the answer"
           : point.value("on_frontier", false) ? "on the frontier"
                                               : ""};

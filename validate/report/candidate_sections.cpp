@@ -18,18 +18,18 @@ std::string candidate_words(const Json& candidate) {
 std::string finding_of_choice(const Json& choice) {
   const Json& best = list(choice, "choice");
   std::string text = candidate_words(best) + " is the fastest";
-  if (const auto tried = number(choice, "tried"); tried && number(best, "measured_seconds"))
-    text += fmt::format(" of {:.0f} candidates that were run: {}", *tried,
-                        seconds_words(*number(best, "measured_seconds"), number(best, "measured_spread")));
-  else if (const auto seconds = number(best, "predicted_seconds"))
-    text += fmt::format(": predicted {}", seconds_words(*seconds, number(best, "predicted_seconds_error")));
+  const std::string measured = shown_seconds(best, "measured_seconds", "measured_spread");
+  const std::string predicted = shown_seconds(best, "predicted_seconds", "predicted_seconds_error");
+  if (const auto tried = number(choice, "tried"); tried && !measured.empty())
+    text += fmt::format(" of {:.0f} candidates that were run: {}", *tried, measured);
+  else if (!predicted.empty())
+    text += ": predicted " + predicted;
   if (const auto regret = number(choice, "regret")) {
-    const std::string predicted = candidate_words(list(choice, "predicted_choice"));
-    text +=
-        *regret < 0.005 ? ". It is what was predicted"
-        : *regret <= number(choice, "regret_error").value_or(0)
-            ? fmt::format(". What was predicted to be fastest, {}, is as fast within the noise of the runs", predicted)
-            : fmt::format(". What was predicted to be fastest, {}, took {} longer", predicted, percent_label(*regret));
+    const std::string other = candidate_words(list(choice, "predicted_choice"));
+    text += *regret < 0.005 ? ". It is what was predicted"
+            : *regret <= number(choice, "regret_error").value_or(0)
+                ? fmt::format(". What was predicted to be fastest, {}, is as fast within the noise of the runs", other)
+                : fmt::format(". What was predicted to be fastest, {}, took {} longer", other, percent_label(*regret));
   }
   return text + ".";
 }
@@ -104,8 +104,8 @@ std::string choice_section(const Json& report) {
     const auto spread = number(one, "measured_spread").value_or(0);
     if (!predicted && !measured) continue;
     const std::string technique = words(one, "technique");
-    figure.row({technique, parameter_words(one), predicted ? seconds_words(*predicted, error) : "",
-                measured ? seconds_words(*measured, spread) : "", words(one, "why_not")});
+    figure.row({technique, parameter_words(one), shown_seconds(one, "predicted_seconds", "predicted_seconds_error"),
+                shown_seconds(one, "measured_seconds", "measured_spread"), words(one, "why_not")});
     const bool is_best = technique == words(best, "technique") && list(one, "parameters") == list(best, "parameters");
     if (!is_best && (technique == words(best, "technique") || std::ranges::find(names, technique) != names.end()))
       continue;  // the table has it
@@ -146,15 +146,13 @@ std::string comparison_section(const Json& report) {
     const auto predicted = tests_in(list(one, "predicted"));
     const auto counted = tests_in(list(one, "counted"));
     const auto tests_ratio = ratio_of(predicted, counted);
-    const auto seconds = number(one, "predicted_seconds");
-    const auto measured = number(one, "measured_seconds");
-    const auto seconds_ratio = ratio_of(seconds, measured);
+    const auto seconds_ratio = ratio_of(number(one, "predicted_seconds"), number(one, "measured_seconds"));
     if (!tests_ratio && !seconds_ratio) continue;
     std::string name = words(one, "technique");
     if (const std::string parameters = parameter_words(one); !parameters.empty()) name += " " + parameters;
     figure.row({name, predicted ? count_words(*predicted) : "", counted ? count_words(*counted) : "",
-                ratio_words(tests_ratio), seconds ? seconds_label(*seconds) : "",
-                measured ? seconds_label(*measured) : "", ratio_words(seconds_ratio)});
+                ratio_words(tests_ratio), shown(one, "predicted_seconds", seconds_label),
+                shown(one, "measured_seconds", seconds_label), ratio_words(seconds_ratio)});
     const double place = figure.name(name);
     const auto add = [&](std::size_t series, std::optional<double> found, double& worst) {
       if (!found) return;

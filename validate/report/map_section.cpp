@@ -69,15 +69,13 @@ std::string map_section(const Json& report) {
     const auto row = std::ranges::find(radii, number(cell, "disc_radius").value_or(0));
     const auto column = std::ranges::find(rays, number(cell, "rays").value_or(0));
     if (!technique || row == radii.end() || column == rays.end()) continue;
-    const auto seconds = number(predicted, "seconds");
     const bool framed = near(*column, rays_here) && near(*row, radius_here);
     if (framed) here = words(predicted, "technique");
     rows.cells.push_back({count_words(*column), fmt::format("{:.3g}", *row), ratio_words(number(cell, "x")),
                           words(predicted, "technique"), parameter_words(predicted),
-                          seconds ? seconds_words(*seconds, number(predicted, "seconds_error")) : "",
-                          framed ? "this workload" : ""});
+                          shown_seconds(predicted, "seconds", "seconds_error"), framed ? "this workload" : ""});
     chart.cells[static_cast<std::size_t>(row - radii.begin())][static_cast<std::size_t>(column - rays.begin())] =
-        ZoneCell{*technique, rows.last_words(), seconds ? seconds_label(*seconds) : "", framed};
+        ZoneCell{*technique, rows.last_words(), shown(predicted, "seconds", seconds_label), framed};
   }
   std::string tips;
   for (const Json& tip : list(choice, "tips"))

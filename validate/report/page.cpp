@@ -54,15 +54,11 @@ std::string technique_card(const Json& answer) {
 }
 
 std::string seconds_card(const Json& answer) {
-  const auto predicted = number(answer, "predicted_seconds");
-  const auto measured = number(answer, "measured_seconds");
-  if (!predicted && !measured) return {};
-  const std::string prediction =
-      predicted ? "predicted: " + seconds_words(*predicted, number(answer, "predicted_seconds_error")) : "";
-  if (measured)
-    return card("Time of a run, measured", seconds_words(*measured, number(answer, "measured_spread")), prediction);
-  return card("Time of a run, predicted", seconds_words(*predicted, number(answer, "predicted_seconds_error")),
-              "not measured");
+  const std::string predicted = shown_seconds(answer, "predicted_seconds", "predicted_seconds_error");
+  const std::string measured = shown_seconds(answer, "measured_seconds", "measured_spread");
+  if (!measured.empty())
+    return card("Time of a run, measured", measured, predicted.empty() ? "" : "predicted: " + predicted);
+  return predicted.empty() ? "" : card("Time of a run, predicted", predicted, "not measured");
 }
 
 std::string accuracy_card(const Json& answer) {
@@ -82,8 +78,7 @@ std::string accuracy_card(const Json& answer) {
     rest += fmt::format("; total error (noise and bias) {} to {}, 95 %", percent_label(error[0].get<double>()),
                         percent_label(error[1].get<double>()));
   if (accuracy.value("reached", true)) return card(fmt::format("{} costs", target), seconds_label(*seconds), rest);
-  return card(fmt::format("{} is out of reach; nearest", target),
-              number(accuracy, "error") ? percent_label(*number(accuracy, "error")) : "?",
+  return card(fmt::format("{} is out of reach; nearest", target), shown(accuracy, "error", percent_label, "?"),
               fmt::format("in {}; {}", seconds_label(*seconds), words(accuracy, "estimator")));
 }
 
@@ -113,35 +108,30 @@ std::string origin_section(const Json& report) {
   const auto add = [&](const std::string& what, const std::string& value) {
     if (!value.empty()) facts.cells.push_back({what, value});
   };
-  const auto count = [&](const char* key) { return number(inputs, key) ? count_words(*number(inputs, key)) : ""; };
-  const auto length = [&](const char* key) {
-    return number(inputs, key) ? fmt::format("{:.4g}", *number(inputs, key)) : "";
-  };
+  const auto whole = [](double number) { return fmt::format("{:.0f}", number); };
+  const auto length = [](double number) { return fmt::format("{:.4g}", number); };
   add("processor", words(origin, "cpu"));
-  add("threads", number(origin, "threads") ? fmt::format("{:.0f}", *number(origin, "threads")) : "");
+  add("threads", shown(origin, "threads", whole));
   add("program", fmt::format("{} {}", words(origin, "program"), words(origin, "version")));
-  add("seed", number(origin, "seed") ? fmt::format("{:.0f}", *number(origin, "seed")) : "");
+  add("seed", shown(origin, "seed", whole));
   add("unit costs", words(answer_of(report, "choice"), "unit_costs"));
-  add("rays", count("rays"));
+  add("rays", shown(inputs, "rays", count_words));
   add("kind of rays", words(inputs, "field"));
-  add("discs", count("samples"));
-  add("disc radius d", length("disc_radius"));
-  add("distance between samples", length("sample_distance"));
-  add("dimension D of the samples", length("dimension"));
+  add("discs", shown(inputs, "samples", count_words));
+  add("disc radius d", shown(inputs, "disc_radius", length));
+  add("distance between samples", shown(inputs, "sample_distance", length));
+  add("dimension D of the samples", shown(inputs, "dimension", length));
   Rows parts{{"part", "command", "time", "forecast"}};
-  for (const Json& part : list(report, "parts")) {
-    const auto seconds = number(part, "seconds");
-    const auto forecast = number(part, "forecast_seconds");
-    parts.cells.push_back({words(part, "name"), words(part, "command"), seconds ? seconds_label(*seconds) : "not run",
-                           forecast ? seconds_label(*forecast) : ""});
-  }
+  for (const Json& part : list(report, "parts"))
+    parts.cells.push_back({words(part, "name"), words(part, "command"),
+                           shown(part, "seconds", seconds_label, "not run"),
+                           shown(part, "forecast_seconds", seconds_label)});
   std::string body = table_html("machine and inputs", facts) + table_html("parts of this page", parts);
   if (const auto seconds = number(report, "seconds"))
-    body += paragraph(fmt::format(
-        "The page took {}; the forecast was {}. It has the whole answer as JSON, in the element with the "
-        "id \u201canswer\u201d.",
-        seconds_label(*seconds),
-        number(report, "forecast_seconds") ? seconds_label(*number(report, "forecast_seconds")) : "not made"));
+    body += paragraph(
+        fmt::format("The page took {}; the forecast was {}. It has the whole answer as JSON, in the element with the "
+                    "id \u201canswer\u201d.",
+                    seconds_label(*seconds), shown(report, "forecast_seconds", seconds_label, "not made")));
   return section_html("How this was made", body);
 }
 

@@ -54,12 +54,6 @@ std::string parameter_words(const Json& candidate) {
   return text;
 }
 
-std::optional<Technique> technique_named(std::string_view name) {
-  for (const TechniqueRecord& record : technique_records)
-    if (detp::name(record.technique) == name) return record.technique;
-  return std::nullopt;
-}
-
 Paint paint_of(std::string_view technique) {
   const auto known = technique_named(technique);
   return known ? Paint{colour_of(*known), name(*known)} : Paint{"#888888"};
@@ -68,6 +62,16 @@ Paint paint_of(std::string_view technique) {
 std::string seconds_words(double seconds, std::optional<double> error) {
   if (!error || !(*error > 0)) return seconds_label(seconds);
   return fmt::format("{} ± {}", seconds_label(seconds), seconds_label(*error));
+}
+
+std::string shown(const Json& json, std::string_view key, std::string (*label)(double), const std::string& otherwise) {
+  const auto value = number(json, key);
+  return value ? label(*value) : otherwise;
+}
+
+std::string shown_seconds(const Json& json, std::string_view key, std::string_view error) {
+  const auto seconds = number(json, key);
+  return seconds ? seconds_words(*seconds, number(json, error)) : "";
 }
 
 std::string ratio_words(std::optional<double> ratio) { return ratio ? fmt::format("{:.3g}", *ratio) : ""; }

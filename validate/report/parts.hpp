@@ -26,14 +26,17 @@ namespace detp::validate {
 /// "fan-out 8, leaf 16" of a candidate's parameters.
 [[nodiscard]] std::string parameter_words(const Json& candidate);
 
-/// The technique with this name; nothing for an unknown one.
-[[nodiscard]] std::optional<Technique> technique_named(std::string_view name);
-
 /// Colour and CSS class of a technique; grey for an unknown name.
 [[nodiscard]] Paint paint_of(std::string_view technique);
 
 /// "7.8 ms ± 1.6 ms".
 [[nodiscard]] std::string seconds_words(double seconds, std::optional<double> error = {});
+
+/// The number at the key as `label` writes it; `otherwise` if there is none.
+[[nodiscard]] std::string shown(const Json& json, std::string_view key, std::string (*label)(double),
+                                const std::string& otherwise = "");
+/// The seconds at the key, ± those at `error`; empty if there are none.
+[[nodiscard]] std::string shown_seconds(const Json& json, std::string_view key, std::string_view error);
 
 /// "1.02", "0.31": a ratio with three digits.
 [[nodiscard]] std::string ratio_words(std::optional<double> ratio);

@@ -140,9 +140,8 @@ std::string answer_text(const Json& answer, const Json& inputs) {
         count_words(number(inputs, "samples").value_or(0)), number(inputs, "disc_radius").value_or(0),
         seconds_words(number(answer, "predicted_seconds").value_or(0), number(answer, "predicted_seconds_error")),
         words(answer, "technique"), parameters.empty() ? "" : ", " + parameters);
-    const auto measured = number(answer, "measured_seconds");
-    text +=
-        measured ? fmt::format("; measured: {}. ", seconds_words(*measured, number(answer, "measured_spread"))) : ". ";
+    const std::string measured = shown_seconds(answer, "measured_seconds", "measured_spread");
+    text += measured.empty() ? ". " : fmt::format("; measured: {}. ", measured);
   }
   const Json& accuracy = list(answer, "accuracy");
   if (const auto seconds = number(accuracy, "seconds"); seconds && accuracy.value("reached", true))
@@ -275,11 +274,7 @@ const Fields<ReportPart>& part_fields() {
   return fields;
 }
 
-std::vector<FieldText> report_fields() {
-  std::vector<FieldText> texts = describe_fields(input_fields());
-  for (const FieldText& one : describe_fields(part_fields())) texts.push_back(one);
-  return texts;
-}
+std::vector<FieldText> report_fields() { return describe_fields(input_fields()) + describe_fields(part_fields()); }
 
 Json answer(const ReportRequest& request, const Ask& ask, const std::stop_token& stop,
             const sim::ReportPhase& progress) {
