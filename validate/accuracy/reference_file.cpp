@@ -1,5 +1,3 @@
-#include "reference_file.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include "detp/sim/files/input_file.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/validate/base/digest.hpp"
+#include "reference.hpp"
 
 namespace detp::validate {
 namespace {
@@ -44,7 +43,7 @@ struct AddLight {
   void operator()(const sim::SurfaceLight&) const {}
 };
 
-std::string digest_of(const sim::Scene& scene) {
+std::string digest_of_scene(const sim::Scene& scene) {
   Digest digest;
   digest.add(scene.mesh.positions.size());
   for (const glm::dvec3& position : scene.mesh.positions) digest.add(position);
@@ -89,7 +88,7 @@ void check_key(const Json& stored, const ReferenceKey& wanted, const std::string
 }
 
 /// Of a file's members, without its checksum.
-std::string checksum_of(Json members, const Json& samples) {
+std::string checksum_of_reference(Json members, const Json& samples) {
   members.erase("checksum");
   members["samples"] = samples;
   return checksum(members);
@@ -128,7 +127,7 @@ void add_sample(const Json& numbers, std::size_t samples_of_scene, Reference& re
 }  // namespace
 
 ReferenceKey reference_key(const sim::Scene& scene, const ReferenceOptions& options) {
-  return {.scene = digest_of(scene),
+  return {.scene = digest_of_scene(scene),
           .front_facing = options.front_facing,
           .samples = options.samples,
           .seed = options.seed,
@@ -156,7 +155,7 @@ void write_reference(const std::string& path, const Reference& reference, const 
     samples.push_back({p.x, p.y, p.z, n.x, n.y, n.z, reference.irradiance[i], reference.variance[i],
                        reference.judged.weights[i], reference.judged.places[i]});
   }
-  head["checksum"] = checksum_of(head, samples);
+  head["checksum"] = checksum_of_reference(head, samples);
   sim::OutputFile file(path);
   std::string text = head.dump(2);
   text.erase(text.rfind('\n'));
@@ -187,7 +186,7 @@ Reference read_reference(const std::string& path, const sim::Scene& scene, const
     const std::size_t samples = std::min(key.samples, reference.judged.population);
     if (reference.irradiance.size() != samples)
       throw std::invalid_argument(fmt::format("it has {} samples, not {}", reference.irradiance.size(), samples));
-    if (json.at("checksum") != checksum_of(json, json.at("samples")))
+    if (json.at("checksum") != checksum_of_reference(json, json.at("samples")))
       throw sim::FileError(path, "was altered: it does not fit its checksum; give another file, or delete this one");
     return reference;
   } catch (const nlohmann::json::exception& error) {

@@ -51,7 +51,7 @@ PairScene scene_of(const char* name, double away, double near_rim, std::uint64_t
 
 /// The definition of a hit by a line, in any arithmetic: the crossing of the plane is within the radius.
 template <class Real>
-bool crosses(const sim::Ray& ray, const sim::Disc& disc) {
+bool crosses_disc(const sim::Ray& ray, const sim::Disc& disc) {
   const auto of = [](const glm::dvec3& v) { return std::array<Real, 3>{Real(v.x), Real(v.y), Real(v.z)}; };
   const auto d = of(ray.direction);
   const auto n = of(disc.normal);
@@ -76,7 +76,7 @@ std::vector<char> decisions(const PairScene& scene, const std::stop_token& stop)
   found.reserve(scene.rays.size() * scene.discs.size());
   for (const sim::Ray& ray : scene.rays) {
     sim::StopCheck(stop, "deciding hits").now();
-    for (const sim::Disc& disc : scene.discs) found.push_back(crosses<Real>(ray, disc) ? 1 : 0);
+    for (const sim::Disc& disc : scene.discs) found.push_back(crosses_disc<Real>(ray, disc) ? 1 : 0);
   }
   return found;
 }

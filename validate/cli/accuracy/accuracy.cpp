@@ -6,7 +6,7 @@
 
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/validate/accuracy/accuracy_report.hpp"
+#include "detp/validate/accuracy/accuracy_answer.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/options/value_lists.hpp"
