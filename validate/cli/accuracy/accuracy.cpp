@@ -46,7 +46,7 @@ AccuracyTarget target_of(const AccuracyOptions& options) {
   using Kind = AccuracyTarget::Kind;
   if (options.error) return {Kind::total, parse_share("--target-error", *options.error)};
   if (options.seconds) return {Kind::seconds, *options.seconds};
-  return {Kind::noise, options.noise ? parse_share("--target-noise", *options.noise) : 0.05};
+  return options.noise ? AccuracyTarget{Kind::noise, parse_share("--target-noise", *options.noise)} : AccuracyTarget{};
 }
 
 std::vector<sim::Estimator> estimators_of(const AccuracyOptions& options) {
