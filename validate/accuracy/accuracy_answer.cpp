@@ -19,7 +19,6 @@
 #include "detp/validate/calibration/costs_in_use.hpp"
 #include "detp/validate/checkpoint/checkpoint_file.hpp"
 #include "detp/validate/job/job.hpp"
-#include "reference_file.hpp"
 
 namespace detp::validate {
 namespace {
@@ -28,12 +27,12 @@ constexpr double longest_check = 60;         // seconds; a longer answer is not 
 constexpr std::uint64_t seeds_apart = 1000;  // of pilots and of the check
 constexpr std::size_t rays_of_model_axis = 200'000;
 
-bool too_large(const AccuracyPoint& point) {
+bool too_large_for_memory(const AccuracyPoint& point) {
   constexpr double bytes_of_a_ray = 3 * (sizeof(sim::Ray) + 20);
   return point.rays * bytes_of_a_ray > sim::memory_budget();
 }
 
-sim::Scene scene_of(const AccuracyRequest& request, const std::stop_token& stop) {
+sim::Scene scene_in_question(const AccuracyRequest& request, const std::stop_token& stop) {
   sim::SceneRequest wanted = request.scene;
   wanted.crease = request.crease.value_or(wanted.crease);
   sim::Scene scene = sim::open_scene(wanted, stop);
@@ -43,57 +42,11 @@ sim::Scene scene_of(const AccuracyRequest& request, const std::stop_token& stop)
   return scene;
 }
 
-/// The samples in question, if they are not all of the scene's at one radius.
-struct AccuracyQuestion {
-  std::vector<double> radii = {};     ///< to try; none: by the mesh
-  std::vector<double> relative = {};  ///< of the samples, over those
-  std::vector<double> weights = {};   ///< of the samples
-  std::string warning = {};           ///< if a run of the file would take other radii than the answer's
-};
-
-/// Makes the discs of a file the scene's samples.
-AccuracyQuestion take_question(sim::Scene& scene, const AccuracyRequest& request, const std::stop_token& stop) {
-  AccuracyQuestion question;
-  const auto around = [](double radius) { return std::vector{radius / 2, radius, 2 * radius, 4 * radius}; };
-  std::optional<double> radius;
-  if (request.disc_radius) {
-    const Length length = parse_length(*request.disc_radius);
-    radius = length.relative ? length.value * scene.box.longest_side() : length.value;
-    question.radii = around(*radius);
-  }
-  if (request.discs) {
-    if (request.scene.samples)
-      throw std::invalid_argument("the number of samples is for scenes; a disc file is taken whole");
-    const double usual = radius.value_or(0.5 * sim::mean_edge_length(scene.mesh, stop));
-    const std::vector<sim::Disc> discs = sim::read_discs(*request.discs, usual, stop);
-    scene.samples.clear();
-    std::vector<double> radii;
-    for (const sim::Disc& disc : discs) {
-      scene.samples.push_back({disc.centre, disc.normal});
-      radii.push_back(disc.radius);
-    }
-    if (std::ranges::any_of(radii, [&](double one) { return one != usual; }))
-      question.warning =
-          *request.discs + " has radii, which detp run takes: for the radius of the answer, leave out that column";
-    const double middle = median(radii);
-    question.radii = around(middle);
-    question.weights = weights_by_area(discs);
-    for (const double one : radii) question.relative.push_back(one / middle);
-  }
-  if (request.faces.empty()) return question;
-  if (question.weights.empty()) question.weights = area_weights(scene, Surfaces::all);
-  keep_named(question.weights, scene.mesh, scene.samples, request.faces, stop);
-  return question;
-}
-
-/// What all runs share.
-AccuracyPilotOptions options_of(const AccuracyRequest& request, const AccuracyQuestion& question,
-                                const std::stop_token& stop, const sim::ReportPhase& progress) {
+/// What all runs share, but for the question.
+AccuracyPilotOptions shared_options(const AccuracyRequest& request, const std::stop_token& stop,
+                                    const sim::ReportPhase& progress) {
   const bool thorough = request.effort == PlanningEffort::thorough;
   return {.estimators = request.estimators,
-          .radii = question.radii,
-          .relative = question.relative,
-          .weights = question.weights,
           .price = request.effort == PlanningEffort::quick ? 0.0
                    : thorough                              ? 20
                                                            : 0.3,
@@ -106,9 +59,45 @@ AccuracyPilotOptions options_of(const AccuracyRequest& request, const AccuracyQu
           .ranks = request.seeds ? request.ranks : nullptr};
 }
 
+/// Makes the discs of a file the scene's samples; takes radii and weights, if the question is not all samples at radii by the mesh. Returns a warning if a
+/// run of the file would take other radii than the answer's.
+std::string take_question(sim::Scene& scene, const AccuracyRequest& request, AccuracyPilotOptions& options) {
+  std::string warning;
+  const auto around = [](double radius) { return std::vector{radius / 2, radius, 2 * radius, 4 * radius}; };
+  std::optional<double> radius;
+  if (request.disc_radius) {
+    const Length length = parse_length(*request.disc_radius);
+    radius = length.relative ? length.value * scene.box.longest_side() : length.value;
+    options.radii = around(*radius);
+  }
+  if (request.discs) {
+    if (request.scene.samples)
+      throw std::invalid_argument("the number of samples is for scenes; a disc file is taken whole");
+    const double usual = radius.value_or(0.5 * sim::mean_edge_length(scene.mesh, options.stop));
+    const std::vector<sim::Disc> discs = sim::read_discs(*request.discs, usual, options.stop);
+    scene.samples.clear();
+    std::vector<double> radii;
+    for (const sim::Disc& disc : discs) {
+      scene.samples.push_back({disc.centre, disc.normal});
+      radii.push_back(disc.radius);
+    }
+    if (std::ranges::any_of(radii, [&](double one) { return one != usual; }))
+      warning =
+          *request.discs + " has radii, which detp run takes: for the radius of the answer, leave out that column";
+    const double middle = median(radii);
+    options.radii = around(middle);
+    options.weights = weights_by_area(discs);
+    for (const double one : radii) options.relative.push_back(one / middle);
+  }
+  if (request.faces.empty()) return warning;
+  if (options.weights.empty()) options.weights = area_weights(scene, Surfaces::all);
+  keep_named(options.weights, scene.mesh, scene.samples, request.faces, options.stop);
+  return warning;
+}
+
 /// Of the request's file. Of ranks, the first one makes it, unless there is one.
-std::optional<Reference> reference_of(const AccuracyRequest& request, const sim::Scene& scene,
-                                      const AccuracyPilotOptions& options) {
+std::optional<Reference> reference_in_file(const AccuracyRequest& request, const sim::Scene& scene,
+                                           const AccuracyPilotOptions& options) {
   if (!request.reference) return std::nullopt;
   const auto read_or_made = [&] {
     return kept_reference(*request.reference, scene,
@@ -126,7 +115,7 @@ std::optional<Reference> reference_of(const AccuracyRequest& request, const sim:
 }
 
 /// All that decides what is found, and only that.
-nlohmann::json key_of(const AccuracyRequest& request, const sim::Scene& scene) {
+nlohmann::json key_of_accuracy(const AccuracyRequest& request, const sim::Scene& scene) {
   const auto joined = [](const auto& words) { return fmt::format("{}", fmt::join(words, ",")); };
   std::vector<std::string_view> estimators;
   for (const sim::Estimator one : request.estimators) estimators.push_back(name(one));
@@ -149,11 +138,11 @@ nlohmann::json key_of(const AccuracyRequest& request, const sim::Scene& scene) {
 }
 
 /// What was found so far, and its file if there is one.
-class SavedState {
+class SavedAnswer {
  public:
-  SavedState(const AccuracyRequest& request, const sim::Scene& scene, const std::stop_token& stop) {
+  SavedAnswer(const AccuracyRequest& request, const sim::Scene& scene, const std::stop_token& stop) {
     if (!request.checkpoint) return;
-    file_.emplace(*request.checkpoint, "accuracy", key_of(request, scene));
+    file_.emplace(*request.checkpoint, "accuracy", key_of_accuracy(request, scene));
     if (!request.resume) return;
     const auto saved = file_->read(stop);
     if (saved) try {
@@ -177,7 +166,7 @@ class SavedState {
 };
 
 /// Fills in pilot and plan, and how far it came if a stop request ended them.
-void find_plan(AccuracyAnswer& answer, sim::Scene& scene, const AccuracyPilotOptions& options, SavedState& saved) {
+void find_plan(AccuracyAnswer& answer, sim::Scene& scene, const AccuracyPilotOptions& options, SavedAnswer& saved) {
   const AccuracyRequest& request = answer.request;
   if (saved.found.pilot) {
     answer.pilot = *saved.found.pilot;
@@ -199,9 +188,9 @@ void find_plan(AccuracyAnswer& answer, sim::Scene& scene, const AccuracyPilotOpt
 }
 
 /// Runs the answer, and plans again with what it says.
-void check_plan(AccuracyAnswer& answer, sim::Scene& scene, AccuracyPilotOptions options, SavedState& saved) {
+void check_plan(AccuracyAnswer& answer, sim::Scene& scene, AccuracyPilotOptions options, SavedAnswer& saved) {
   const AccuracyPoint& point = answer.plan.answer;
-  if (too_large(point))
+  if (too_large_for_memory(point))
     answer.no_check = "Not run: too large for the memory.";
   else if (point.seconds > longest_check)
     answer.no_check = "Not run to check: too long.";
@@ -224,7 +213,7 @@ void check_plan(AccuracyAnswer& answer, sim::Scene& scene, AccuracyPilotOptions 
   answer.plan = plan_accuracy(answer.pilot, answer.request.target, answer.request.most_rays);
 }
 
-void run_again(AccuracyAnswer& answer, sim::Scene& scene, const AccuracyPilotOptions& options, SavedState& saved) {
+void run_again(AccuracyAnswer& answer, sim::Scene& scene, const AccuracyPilotOptions& options, SavedAnswer& saved) {
   const RerunSeeds& seeds = *answer.request.seeds;
   answer.reruns = rerun_accuracy(scene, answer.plan.answer, answer.pilot.mean_square, seeds, options, saved.found.runs,
                                  [&](const std::vector<AccuracyRerun>& made) {
@@ -235,8 +224,8 @@ void run_again(AccuracyAnswer& answer, sim::Scene& scene, const AccuracyPilotOpt
 }
 
 /// Of the axes that were asked for, without that of the estimators.
-std::vector<AxisPoint> other_axes(const AccuracyAnswer& answer, sim::Scene& scene,
-                                  const AccuracyPilotOptions& options) {
+std::vector<AxisPoint> points_of_other_axes(const AccuracyAnswer& answer, sim::Scene& scene,
+                                            const AccuracyPilotOptions& options) {
   const AxisOptions axis{options.seed + seeds_apart, options.threads, options.stop};
   const double radius = answer.pilot.sample_distance;
   const auto discs = discs_at(scene.samples, radius);
@@ -284,10 +273,10 @@ AccuracyAnswer answer(const AccuracyRequest& request, const std::stop_token& sto
                       const std::function<void(const std::string&)>& note) {
   if (request.seeds) check(*request.seeds);
   check(request.target, request.most_rays);
-  sim::Scene scene = scene_of(request, stop);
-  const AccuracyQuestion question = take_question(scene, request, stop);
-  AccuracyPilotOptions options = options_of(request, question, stop, progress);
-  const std::optional<Reference> reference = reference_of(request, scene, options);
+  sim::Scene scene = scene_in_question(request, stop);
+  AccuracyPilotOptions options = shared_options(request, stop, progress);
+  const std::string warning = take_question(scene, request, options);
+  const std::optional<Reference> reference = reference_in_file(request, scene, options);
   if (reference) options.reference = &*reference;
   AccuracyAnswer answer{.request = request,
                         .side = scene.box.longest_side(),
@@ -295,28 +284,29 @@ AccuracyAnswer answer(const AccuracyRequest& request, const std::stop_token& sto
                         .polygons = scene.mesh.polygons,
                         .normals_made = scene.mesh.normals_made,
                         .coincident = scene.mesh.coincident};
-  if (!question.radii.empty()) answer.disc_radius = question.radii[1];
+  if (!options.radii.empty()) answer.disc_radius = options.radii[1];
   if (request.ranks != nullptr && request.ranks->rank() != 0) {
     if (request.seeds) serve_reruns(scene, options);
     return answer;
   }
   if (request.ranks == nullptr) probe_once(stop);
-  SavedState saved(request, scene, stop);
+  SavedAnswer saved(request, scene, stop);
   const auto say = [&](const std::string& text, const std::string& before = "warning: ") {
     if (note && !text.empty()) note(before + text);
     if (!text.empty()) answer.warnings.push_back(text);
   };
   for (const std::string& notice : scene.notices) say(notice, "");
-  say(question.warning);
-  if (question.weights.empty()) say(mirror_notice(mirror_share(scene.mesh)), "");
+  say(warning);
+  if (options.weights.empty()) say(mirror_notice(mirror_share(scene.mesh)), "");
   find_plan(answer, scene, options, saved);
   if (request.check && !answer.stopped) check_plan(answer, scene, options, saved);
   answer.planning_seconds = saved.found.planning_seconds;
-  for (const std::string& warning : sim::light_warnings(answer.pilot.light, scene.lights)) say(warning);
-  if (request.seeds && !answer.stopped && !too_large(answer.plan.answer)) run_again(answer, scene, options, saved);
+  for (const std::string& lost : sim::light_warnings(answer.pilot.light, scene.lights)) say(lost);
+  if (request.seeds && !answer.stopped && !too_large_for_memory(answer.plan.answer))
+    run_again(answer, scene, options, saved);
   if (answer.stopped) saved.write();
   if (!answer.stopped) try {
-      answer.axes = other_axes(answer, scene, options);
+      answer.axes = points_of_other_axes(answer, scene, options);
     } catch (const sim::Stopped&) {
       answer.stopped = sim::Progress{2, 3, "steps"};
     } catch (const std::exception& error) {  // the answer is complete without them

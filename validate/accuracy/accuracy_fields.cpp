@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "accuracy_report.hpp"
+#include "accuracy_answer.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/validate/answer/parts.hpp"
 
@@ -60,17 +60,17 @@ struct AccuracyRow {
   [[nodiscard]] Json command() const { return point ? Json(command_of(*answer, *point)) : Json(); }
 };
 
-constexpr auto name_of = [](auto one) { return name(one); };
-constexpr auto interval_of = [](const RootInterval& root) { return Json{root.low, root.high}; };
-constexpr auto if_used = [](auto number) { return number > 0 ? Json(number) : Json(); };
+constexpr auto name_in_json = [](auto one) { return name(one); };
+constexpr auto interval_in_json = [](const RootInterval& root) { return Json{root.low, root.high}; };
+constexpr auto null_if_unused = [](auto number) { return number > 0 ? Json(number) : Json(); };
 
 /// What points of other axes have as null.
 template <class... Members>
-auto or_null(Members... members) {
+auto point_or_null(Members... members) {
   return [members...](const AccuracyRow& row) { return row.point ? value_at(*row.point, members...) : Json(); };
 }
 
-const Fields<AccuracyRow>& row_fields() {
+const Fields<AccuracyRow>& accuracy_row_fields() {
   using enum FieldPlace;
   using Answer = AccuracyAnswer;
   using Point = AccuracyPoint;
@@ -89,7 +89,7 @@ const Fields<AccuracyRow>& row_fields() {
        at(&Row::answer, &Answer::request, &AccuracyRequest::scene, &sim::SceneRequest::name), tables_alone},
       {"role", "", "answer, rival, point, run, or another axis", &Row::role, tables_alone},
       {"target_kind", "", "noise, error or seconds",
-       at(&Row::answer, &Answer::plan, &AccuracyPlan::target, &AccuracyTarget::kind, name_of), tables_alone},
+       at(&Row::answer, &Answer::plan, &AccuracyPlan::target, &AccuracyTarget::kind, name_in_json), tables_alone},
       {"target", "", "the error to reach, or the seconds that a run may take", of_target(&AccuracyTarget::value),
        tables_alone},
       {"reached", "", "the point has the target's error", &Row::reached, tables_alone},
@@ -98,35 +98,35 @@ const Fields<AccuracyRow>& row_fields() {
        tables_alone},
       {"axis", "", "where accuracy costs time: estimator, simulation, model or arithmetic", &Row::axis_name,
        json_alone},
-      {"estimator", "", "the estimator", or_null(&Point::estimator, name_of)},
+      {"estimator", "", "the estimator", point_or_null(&Point::estimator, name_in_json)},
       {"setting", "", "the radius as a share of the scene's side, or k; of other axes the way", &Row::setting},
       {"quantity", "", "of other axes: what the error is of", at(&Row::axis, &AxisPoint::quantity)},
-      {"disc_radius", "", "in units of the scene; null: not used", of_point(&Point::radius, if_used)},
-      {"nearest", "", "k of the estimator nearest; null: not used", of_point(&Point::nearest, if_used)},
+      {"disc_radius", "", "in units of the scene; null: not used", of_point(&Point::radius, null_if_unused)},
+      {"nearest", "", "k of the estimator nearest; null: not used", of_point(&Point::nearest, null_if_unused)},
       {"rays", "", "pieces of photon paths", of_point(rays)},
       {"paths", "", "backward paths of each sample, of gather", of_point(paths)},
       {"photons", "", "predicted", of_point(photons)},
       {"noise", "", "of one run, relative to the root mean square irradiance", of_point(&Point::noise, &Root::value)},
-      One("noise_interval", "", "95 %", of_point(&Point::noise, interval_of)).as_interval("noise"),
+      One("noise_interval", "", "95 %", of_point(&Point::noise, interval_in_json)).as_interval("noise"),
       {"noise_weak", "", "few photons bring most of the noise: its interval may not hold", of_point(&Point::noise_weak),
        json_alone},
-      {"bias", "", "relative to the root mean square irradiance", or_null(&Point::bias, &Root::value)},
-      One("bias_interval", "", "95 %; from 0: there may be none", of_point(&Point::bias, interval_of))
+      {"bias", "", "relative to the root mean square irradiance", point_or_null(&Point::bias, &Root::value)},
+      One("bias_interval", "", "95 %; from 0: there may be none", of_point(&Point::bias, interval_in_json))
           .as_interval("bias"),
       {"mean_bias", "", "light gained (> 0) or lost, relative to the mean irradiance",
        of_point(&Point::mean_bias, &Estimate::mean)},
       {"mean_bias_error", "", "its standard error", of_point(&Point::mean_bias, &Estimate::standard_error), json_alone},
       {"error", "", "noise and bias together; of other axes the relative error", &Row::error},
       One("error_interval", "", "95 %", &Row::error_interval).as_interval("error"),
-      {"variance", "", "the square of noise", or_null(variance), json_alone},
+      {"variance", "", "the square of noise", point_or_null(variance), json_alone},
       {"slope", "", "the error changes as this power of the seconds", of_point(&Point::slope, &Root::value),
        json_alone},
-      {"slope_interval", "", "that of the error", of_point(&Point::slope, interval_of), json_alone},
-      {"predicted_seconds", "s", "of a run, tracing included", or_null(&Point::seconds)},
+      {"slope_interval", "", "that of the error", of_point(&Point::slope, interval_in_json), json_alone},
+      {"predicted_seconds", "s", "of a run, tracing included", point_or_null(&Point::seconds)},
       {"processor_seconds", "s", "predicted, at most: all threads at work all the time", &Row::processor_seconds,
        json_alone},
       {"on_frontier", "", "no other point is more accurate and faster, their intervals apart",
-       or_null(&Point::on_frontier)},
+       point_or_null(&Point::on_frontier)},
       {"cut_off", "", "the point needs all rays that there may be", &Row::cut_off, json_alone},
       {"seed", "", "of a run again", at(&Row::run, &AccuracyRerun::seed), tables_alone},
       {"work", "", "of other axes: lines, pairs or rays", at(&Row::axis, &AxisPoint::work)},
@@ -140,19 +140,19 @@ const Fields<AccuracyRow>& row_fields() {
   return fields;
 }
 
-Json point_json(const AccuracyAnswer& answer, const AccuracyPoint& point, const char* role) {
-  return json_of(row_fields(), {.answer = &answer, .role = role, .point = &point});
+Json accuracy_point_json(const AccuracyAnswer& answer, const AccuracyPoint& point, const char* role) {
+  return json_of(accuracy_row_fields(), {.answer = &answer, .role = role, .point = &point});
 }
 
 template <class List, class Make>
-Json array_of(const List& list, const Make& make) {
+Json accuracy_array(const List& list, const Make& make) {
   Json all = Json::array();
   for (const auto& one : list) all.push_back(make(one));
   return all;
 }
 
 /// What the answer has more than another point.
-const Fields<AccuracyAnswer>& chosen_fields() {
+const Fields<AccuracyAnswer>& chosen_point_fields() {
   using Answer = AccuracyAnswer;
   const auto technique = [](const Answer& answer) {
     const sim::Estimator estimator = answer.plan.answer.estimator;
@@ -163,7 +163,7 @@ const Fields<AccuracyAnswer>& chosen_fields() {
     return Json{answer.plan.answer.seconds / seconds_factor, seconds_factor * answer.plan.answer.seconds};
   };
   const auto checked = [](const Answer& answer) {
-    return answer.check ? point_json(answer, answer.check->point, "point") : left_out();
+    return answer.check ? accuracy_point_json(answer, answer.check->point, "point") : left_out();
   };
   const auto within = [](const Answer& answer) { return answer.check ? Json(answer.within()) : left_out(); };
   const auto text = [](const Answer& answer) {
@@ -184,13 +184,13 @@ const Fields<AccuracyAnswer>& chosen_fields() {
   return fields;
 }
 
-const Fields<PilotJudge>& judge_fields() {
+const Fields<PilotJudge>& pilot_judge_fields() {
   using Judge = PilotJudge;
   const auto photons = [](const Judge& judge) {
     return judge.kind == ReferenceKind::both ? Json(judge.photons) : Json();
   };
   static const Fields<Judge> fields{
-      {"kind", "", "known, backward paths, or backward paths and photons", at(&Judge::kind, name_of)},
+      {"kind", "", "known, backward paths, or backward paths and photons", at(&Judge::kind, name_in_json)},
       {"photons", "", "for the light that backward paths miss", photons},
       {"paths", "", "backward paths of each sample, on each side", &Judge::paths},
       {"samples", "", "at which bias is judged", &Judge::samples},
@@ -200,7 +200,7 @@ const Fields<PilotJudge>& judge_fields() {
   return fields;
 }
 
-const Fields<AccuracyRerun>& rerun_fields() {
+const Fields<AccuracyRerun>& accuracy_rerun_fields() {
   static const Fields<AccuracyRerun> fields{
       {"seed", "", "of the run", &AccuracyRerun::seed},
       {"noise", "", "difference from the mean of all runs", &AccuracyRerun::noise},
@@ -209,35 +209,35 @@ const Fields<AccuracyRerun>& rerun_fields() {
   return fields;
 }
 
-const Fields<AccuracyAnswer>& answer_fields() {
+const Fields<AccuracyAnswer>& accuracy_answer_fields() {
   using Answer = AccuracyAnswer;
   const auto chosen = [](const Answer& answer) {
-    Json json = point_json(answer, answer.plan.answer, "answer");
+    Json json = accuracy_point_json(answer, answer.plan.answer, "answer");
     for (const char* of_curves : {"axis", "on_frontier", "cut_off"}) json.erase(of_curves);
-    json.update(json_of(chosen_fields(), answer));
+    json.update(json_of(chosen_point_fields(), answer));
     return json;
   };
   const auto rivals = [](const Answer& answer) {
-    return array_of(answer.plan.rivals, [&](const AccuracyPoint& point) {
-      Json rival = point_json(answer, point, "rival");
+    return accuracy_array(answer.plan.rivals, [&](const AccuracyPoint& point) {
+      Json rival = accuracy_point_json(answer, point, "rival");
       rival["reached"] = reaches(point, answer.plan.target);
       return rival;
     });
   };
   const auto points = [](const Answer& answer) {
-    Json all =
-        array_of(answer.plan.points, [&](const AccuracyPoint& point) { return point_json(answer, point, "point"); });
+    Json all = accuracy_array(answer.plan.points,
+                              [&](const AccuracyPoint& point) { return accuracy_point_json(answer, point, "point"); });
     for (const AxisPoint& point : answer.axes)
-      all.push_back(json_of(row_fields(), {.answer = &answer, .role = point.axis, .axis = &point}));
+      all.push_back(json_of(accuracy_row_fields(), {.answer = &answer, .role = point.axis, .axis = &point}));
     return all;
   };
   const auto reruns = [](const Answer& answer) {
     if (answer.reruns.empty()) return Json();
-    const auto run = [](const AccuracyRerun& one) { return json_of(rerun_fields(), one); };
-    return Json{{"inside_noise_interval", answer.inside()}, {"runs", array_of(answer.reruns, run)}};
+    const auto run = [](const AccuracyRerun& one) { return json_of(accuracy_rerun_fields(), one); };
+    return Json{{"inside_noise_interval", answer.inside()}, {"runs", accuracy_array(answer.reruns, run)}};
   };
-  const auto names = [](const std::vector<sim::Estimator>& all) { return array_of(all, name_of); };
-  const auto judge = [](const PilotJudge& one) { return json_of(judge_fields(), one); };
+  const auto names = [](const std::vector<sim::Estimator>& all) { return accuracy_array(all, name_in_json); };
+  const auto judge = [](const PilotJudge& one) { return json_of(pilot_judge_fields(), one); };
   const auto geometry = [](const Answer& answer) {
     return geometry_json(answer.polygons, answer.normals_made, answer.coincident);
   };
@@ -260,7 +260,7 @@ const Fields<AccuracyAnswer>& answer_fields() {
   return fields;
 }
 
-const Fields<AccuracyAnswer>& input_fields() {
+const Fields<AccuracyAnswer>& accuracy_input_fields() {
   using Answer = AccuracyAnswer;
   using Request = AccuracyRequest;
   using Kind = AccuracyTarget::Kind;
@@ -269,9 +269,9 @@ const Fields<AccuracyAnswer>& input_fields() {
               [kind](const AccuracyTarget& one) { return one.kind == kind ? Json(one.value) : Json(); });
   };
   const auto of = [](const auto&... parts) { return at(&Answer::request, parts...); };
-  const auto names = [](const std::vector<sim::Estimator>& all) { return array_of(all, name_of); };
+  const auto names = [](const std::vector<sim::Estimator>& all) { return accuracy_array(all, name_in_json); };
   const auto axes = [](const std::vector<AccuracyAxis>& all) {
-    return all.empty() ? Json::array({"estimator"}) : array_of(all, name_of);
+    return all.empty() ? Json::array({"estimator"}) : accuracy_array(all, name_in_json);
   };
   const auto seeds = [](const Request& request) {
     return request.seeds ? Json(fmt::format("{}:{}", request.seeds->first, request.seeds->last)) : Json();
@@ -286,7 +286,7 @@ const Fields<AccuracyAnswer>& input_fields() {
       {"most_rays", "", "pieces of photon paths that a run may have", of(&Request::most_rays)},
       {"reference", "", "the file of what bias is judged by", of(&Request::reference)},
       {"axes", "", "where accuracy costs time", of(&Request::axes, axes)},
-      {"effort", "", "how long planning may take", of(&Request::effort, name_of)},
+      {"effort", "", "how long planning may take", of(&Request::effort, name_in_json)},
       {"check", "", "the answer is run once", of(&Request::check)},
       {"discs", "", "the file of the discs in question", of(&Request::discs)},
       {"disc_radius", "", "around which radii were tried, if it was given", &Answer::disc_radius},
@@ -301,15 +301,15 @@ const Fields<AccuracyAnswer>& input_fields() {
 
 }  // namespace
 
-Json inputs_json(const AccuracyAnswer& answer) { return json_of(input_fields(), answer); }
+Json inputs_json(const AccuracyAnswer& answer) { return json_of(accuracy_input_fields(), answer); }
 
-Json to_json(const AccuracyAnswer& answer) { return json_of(answer_fields(), answer); }
+Json to_json(const AccuracyAnswer& answer) { return json_of(accuracy_answer_fields(), answer); }
 
-Columns accuracy_columns() { return columns_of(row_fields()); }
+Columns accuracy_columns() { return columns_of(accuracy_row_fields()); }
 
 std::vector<Json> accuracy_rows(const AccuracyAnswer& answer) {
   std::vector<Json> rows;
-  const auto add = [&](const AccuracyRow& row) { rows.push_back(cells_of(row_fields(), row)); };
+  const auto add = [&](const AccuracyRow& row) { rows.push_back(cells_of(accuracy_row_fields(), row)); };
   add({.answer = &answer, .role = "answer", .point = &answer.plan.answer});
   for (const AccuracyPoint& point : answer.plan.rivals) add({.answer = &answer, .role = "rival", .point = &point});
   for (const AccuracyPoint& point : answer.plan.points) add({.answer = &answer, .role = "point", .point = &point});
@@ -326,12 +326,12 @@ std::vector<FieldText> describe_accuracy() {
       all.push_back(std::move(field));
     }
   };
-  add("inputs.", input_fields());
-  add("", answer_fields());
-  add("points.", row_fields());
-  add("answer.", chosen_fields());
-  add("reference.", judge_fields());
-  add("reruns.runs.", rerun_fields());
+  add("inputs.", accuracy_input_fields());
+  add("", accuracy_answer_fields());
+  add("points.", accuracy_row_fields());
+  add("answer.", chosen_point_fields());
+  add("reference.", pilot_judge_fields());
+  add("reruns.runs.", accuracy_rerun_fields());
   return all;
 }
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <stop_token>
 #include <vector>
@@ -98,8 +97,8 @@ inline constexpr double share_of_pilots = 0.85;
 struct AccuracyPilotOptions {
   std::vector<sim::Estimator> estimators;  ///< empty: all
   std::vector<double> radii = {};          ///< of discs, rising; empty: from a quarter to twice the mean edge
-  std::span<const double> relative = {};   ///< radii of the scene's samples over those; none: 1
-  std::span<const double> weights = {};    ///< of the scene's samples, with sum 1; none: by area
+  std::vector<double> relative = {};       ///< radii of the scene's samples over those; none: 1
+  std::vector<double> weights = {};        ///< of the scene's samples, with sum 1; none: by area
   const Reference* reference = nullptr;    ///< the judge, if it was made before; it must outlive the pilot
   double price = 0.3;        ///< pilots may together take so many times as long as the answer that they find
   double least_price = 0.5;  ///< seconds that they may always take

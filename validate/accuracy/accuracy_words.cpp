@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accuracy_report.hpp"
+#include "accuracy_answer.hpp"
 
 /// The answer in words.
 namespace detp::validate {
@@ -17,7 +17,7 @@ std::string light_words(const AccuracyPoint& point) {
   return fmt::format(" ({} of the light is {})", percent(std::abs(bias)), bias > 0 ? "gained" : "lost");
 }
 
-std::string nearest_words(const AccuracyAnswer& answer) {
+std::string not_reached_words(const AccuracyAnswer& answer) {
   const AccuracyPoint& best = answer.plan.answer;
   const AccuracyTarget& target = answer.plan.target;
   const std::string what = percent(target.value) + (target.kind == AccuracyTarget::Kind::noise ? " noise" : " error");
@@ -139,7 +139,7 @@ std::string judge_words(const AccuracyAnswer& answer) {
 }
 
 std::string answer_words(const AccuracyAnswer& answer) {
-  std::string text = answer.plan.reached ? reached_words(answer) : nearest_words(answer);
+  std::string text = answer.plan.reached ? reached_words(answer) : not_reached_words(answer);
   if (answer.plan.answer.noise_weak) text += " The noise is weak: a few photons bring most of it in the pilot.";
   if (answer.check) return text + check_words(answer);
   return answer.no_check.empty() ? text : text + " " + answer.no_check;

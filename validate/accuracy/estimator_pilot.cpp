@@ -28,7 +28,7 @@ struct Between {
   }
 };
 
-Between between(const std::vector<SettingPilot>& settings, double scale) {
+Between settings_around(const std::vector<SettingPilot>& settings, double scale) {
   if (settings.size() == 1 || scale <= settings.front().scale) return {settings.front(), settings.front(), 0};
   for (std::size_t i = 1; i < settings.size(); ++i)
     if (scale <= settings[i].scale) {
@@ -43,7 +43,7 @@ double noise_of_a_ray(const SettingPilot& one) { return std::max(one.noise_squar
 }  // namespace
 
 GrowingSeconds EstimatorPilot::seconds(double scale) const {
-  const Between there = between(settings, scale);
+  const Between there = settings_around(settings, scale);
   const auto mixed = [&](double GrowingSeconds::*part) {
     const auto value = [part](const SettingPilot& one) { return one.seconds.*part; };
     const bool both = value(there.low) > 0 && value(there.high) > 0;
@@ -53,11 +53,11 @@ GrowingSeconds EstimatorPilot::seconds(double scale) const {
 }
 
 double EstimatorPilot::rare_photons(double scale) const {
-  return between(settings, scale).log_mixed([](const SettingPilot& one) { return one.rare_photons; });
+  return settings_around(settings, scale).log_mixed([](const SettingPilot& one) { return one.rare_photons; });
 }
 
 double EstimatorPilot::noise_squared(double scale, double rays) const {
-  return between(settings, scale).log_mixed(noise_of_a_ray) / rays;
+  return settings_around(settings, scale).log_mixed(noise_of_a_ray) / rays;
 }
 
 double EstimatorPilot::noise_squared_error(double scale) const {
@@ -65,11 +65,11 @@ double EstimatorPilot::noise_squared_error(double scale) const {
   const auto relative = [](const SettingPilot& one) {
     return std::max(one.noise_squared_times_rays.standard_error / noise_of_a_ray(one), std::sqrt(1 / one.rare_photons));
   };
-  return std::sqrt(static_cast<double>(runs) + 1) * between(settings, scale).mixed(relative);
+  return std::sqrt(static_cast<double>(runs) + 1) * settings_around(settings, scale).mixed(relative);
 }
 
 Estimate EstimatorPilot::bias_squared(double scale) const {
-  const Between there = between(settings, scale);
+  const Between there = settings_around(settings, scale);
   Estimate bias = there.mixed_estimate(&SettingPilot::bias_squared);
   const auto known = [](const Estimate& one) { return one.mean > one.standard_error; };
   if (known(there.low.bias_squared) && known(there.high.bias_squared))
@@ -78,7 +78,7 @@ Estimate EstimatorPilot::bias_squared(double scale) const {
 }
 
 Estimate EstimatorPilot::mean_bias(double scale) const {
-  return between(settings, scale).mixed_estimate(&SettingPilot::mean_bias);
+  return settings_around(settings, scale).mixed_estimate(&SettingPilot::mean_bias);
 }
 
 }  // namespace detp::validate

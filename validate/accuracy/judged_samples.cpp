@@ -14,7 +14,7 @@ namespace detp::validate {
 
 namespace {
 
-double area_of(const sim::Mesh& mesh, const std::array<std::uint32_t, 3>& corners) {
+double area_of_triangle(const sim::Mesh& mesh, const std::array<std::uint32_t, 3>& corners) {
   const glm::dvec3& a = mesh.positions[corners[0]];
   return 0.5 * glm::length(glm::cross(mesh.positions[corners[1]] - a, mesh.positions[corners[2]] - a));
 }
@@ -37,7 +37,7 @@ double mirror_share(const sim::Mesh& mesh) {
   double all = 0;
   double of_mirrors = 0;
   for (std::size_t i = 0; i < is_mirror.size(); ++i) {
-    const double area = area_of(mesh, mesh.triangles[i]);
+    const double area = area_of_triangle(mesh, mesh.triangles[i]);
     all += area;
     if (is_mirror[i]) of_mirrors += area;
   }
@@ -58,7 +58,7 @@ std::vector<double> area_weights(const sim::Scene& scene, Surfaces surfaces) {
   std::vector<double> counted(mesh.positions.size());
   for (std::size_t i = 0; i < counts.size(); ++i)
     for (const std::uint32_t corner : mesh.triangles[i]) {
-      const double third = area_of(mesh, mesh.triangles[i]) / 3;
+      const double third = area_of_triangle(mesh, mesh.triangles[i]) / 3;
       around[corner] += third;
       if (counts[i]) counted[corner] += third;
     }

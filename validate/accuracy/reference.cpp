@@ -26,9 +26,9 @@ constexpr std::uint64_t photons_of_a_batch = 1 << 20;
 constexpr int fewest_batches = 4;
 constexpr int most_batches = 1024;
 
-double squared(double x) { return x * x; }
+double square_of_number(double x) { return x * x; }
 
-void check(const ReferenceOptions& options) {
+void require_in_range(const ReferenceOptions& options) {
   require_count("number of samples of a reference", static_cast<double>(options.samples), 1, 1e7);
   require_positive("error of a reference", options.error);
   require_positive("seconds of a reference", options.seconds);
@@ -42,7 +42,7 @@ Estimate over_batches(const std::vector<std::vector<double>>& batches, std::size
   for (const auto& batch : batches) sum += batch[sample];
   const double mean = sum / count;
   double squares = 0;
-  for (const auto& batch : batches) squares += squared(batch[sample] - mean);
+  for (const auto& batch : batches) squares += square_of_number(batch[sample] - mean);
   return {mean, std::sqrt(squares / count / (count - 1))};
 }
 
@@ -63,7 +63,7 @@ std::string_view name(ReferenceKind kind) {
 double Reference::mean_square() const {
   double square = 0;
   for (std::size_t i = 0; i < irradiance.size(); ++i)
-    square += judged.weights[i] * (squared(irradiance[i]) - variance[i]);
+    square += judged.weights[i] * (square_of_number(irradiance[i]) - variance[i]);
   return square;
 }
 
@@ -148,15 +148,16 @@ const Reference& ReferenceMaker::reference() {
   double mean = 0;
   for (std::size_t i = 0; i < samples; ++i) {
     const Estimate by_photons = misses_light_ ? over_batches(missed_, i) : Estimate{};
-    const double variance = squared(by_photons.standard_error);
+    const double variance = square_of_number(by_photons.standard_error);
     reference_.irradiance[i] = sums_[i].irradiance() + by_photons.mean;
     reference_.variance[i] = sums_[i].variance() + variance;
     reference_.paths = std::min(reference_.paths, sums_[i].paths);
     casts += static_cast<double>(sums_[i].casts) / static_cast<double>(sums_[i].paths * samples);
     of_path += weights[i] * sums_[i].variance() * static_cast<double>(sums_[i].paths);
-    const double square = squared(by_photons.mean) - variance;
+    const double square = square_of_number(by_photons.mean) - variance;
     missed_square += weights[i] * square;
-    missed_variance += squared(weights[i]) * (4 * std::max(0.0, square) * variance + 2 * squared(variance));
+    missed_variance +=
+        square_of_number(weights[i]) * (4 * std::max(0.0, square) * variance + 2 * square_of_number(variance));
     missed += weights[i] * by_photons.mean;
     mean += weights[i] * reference_.irradiance[i];
   }
@@ -164,7 +165,7 @@ const Reference& ReferenceMaker::reference() {
   const double square = reference_.mean_square();
   if (square > 0) {
     // light that no photon brought to the samples is bounded, not absent
-    const double error = std::max(std::sqrt(missed_variance) / square, squared(missed_bound_));
+    const double error = std::max(std::sqrt(missed_variance) / square, square_of_number(missed_bound_));
     reference_.missed_squared = {missed_square / square, error};
     reference_.path_noise_squared = of_path / square;
   }
@@ -174,7 +175,7 @@ const Reference& ReferenceMaker::reference() {
 
 Reference make_reference(const sim::Scene& scene, const ReferenceOptions& options) {
   const sim::DefaultFloatingPoint mode;
-  check(options);
+  require_in_range(options);
   if (scene.samples.empty() || scene.mesh.triangles.empty())
     throw std::invalid_argument("a reference needs samples and triangles; " + scene.name + " has none");
   const sim::Stopwatch watch;
@@ -199,7 +200,7 @@ Reference make_reference(const sim::Scene& scene, const ReferenceOptions& option
       return made;
     }
     if (options.progress) {
-      const double done = std::max(squared(options.error / error), watch.seconds() / options.seconds);
+      const double done = std::max(square_of_number(options.error / error), watch.seconds() / options.seconds);
       options.progress({fmt::format("reference: {}", name(reference.kind)), std::min(1.0, done), 1});
     }
     if (!maker.misses_light() || reference.paths < static_cast<std::uint64_t>(batches) * paths_at_first)

@@ -1,9 +1,6 @@
-#include "reference_file.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -14,6 +11,7 @@
 #include "detp/sim/files/input_file.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/validate/base/json.hpp"
+#include "reference.hpp"
 
 namespace detp::validate {
 namespace {
@@ -44,7 +42,7 @@ struct AddLight {
   void operator()(const sim::SurfaceLight&) const {}
 };
 
-std::string digest_of(const sim::Scene& scene) {
+std::string digest_of_scene(const sim::Scene& scene) {
   Digest digest;
   digest.add(scene.mesh.positions.size());
   for (const glm::dvec3& position : scene.mesh.positions) digest.add(position);
@@ -89,7 +87,7 @@ void check_key(const Json& stored, const ReferenceKey& wanted, const std::string
 }
 
 /// Of a file's members, without its checksum.
-std::string checksum_of(Json members, const Json& samples) {
+std::string checksum_of_reference(Json members, const Json& samples) {
   members.erase("checksum");
   members["samples"] = samples;
   return checksum(members);
@@ -101,25 +99,20 @@ ReferenceKind kind_named(const std::string& text) {
   throw std::invalid_argument("its kind is " + detp::quoted(text));
 }
 
-double finite(const Json& value, const char* what) {
-  const double number = value;
-  if (!std::isfinite(number)) throw std::invalid_argument(fmt::format("{} is not finite", what));
-  return number;
-}
-
+/// JSON has no numbers that are not finite.
 void add_sample(const Json& numbers, std::size_t samples_of_scene, Reference& reference) {
   if (!numbers.is_array() || numbers.size() != numbers_of_sample)
     throw std::invalid_argument(fmt::format("a sample needs {} numbers", numbers_of_sample));
   sim::Sample sample;
   for (int axis = 0; axis < 3; ++axis) {
-    sample.position[axis] = finite(numbers[axis], "a position");
-    sample.normal[axis] = finite(numbers[3 + axis], "a normal");
+    sample.position[axis] = numbers[axis];
+    sample.normal[axis] = numbers[3 + axis];
   }
   reference.judged.samples.push_back(sample);
-  reference.irradiance.push_back(finite(numbers[6], "an irradiance"));
-  reference.variance.push_back(finite(numbers[7], "a variance"));
+  reference.irradiance.push_back(numbers[6]);
+  reference.variance.push_back(numbers[7]);
   if (reference.variance.back() < 0) throw std::invalid_argument("a variance is below 0");
-  reference.judged.weights.push_back(finite(numbers[8], "a weight"));
+  reference.judged.weights.push_back(numbers[8]);
   reference.judged.places.push_back(numbers[9]);
   if (reference.judged.places.back() >= samples_of_scene)
     throw std::invalid_argument("a sample is not one of the scene's");
@@ -128,7 +121,7 @@ void add_sample(const Json& numbers, std::size_t samples_of_scene, Reference& re
 }  // namespace
 
 ReferenceKey reference_key(const sim::Scene& scene, const ReferenceOptions& options) {
-  return {.scene = digest_of(scene),
+  return {.scene = digest_of_scene(scene),
           .front_facing = options.front_facing,
           .samples = options.samples,
           .seed = options.seed,
@@ -156,7 +149,7 @@ void write_reference(const std::string& path, const Reference& reference, const 
     samples.push_back({p.x, p.y, p.z, n.x, n.y, n.z, reference.irradiance[i], reference.variance[i],
                        reference.judged.weights[i], reference.judged.places[i]});
   }
-  head["checksum"] = checksum_of(head, samples);
+  head["checksum"] = checksum_of_reference(head, samples);
   sim::OutputFile file(path);
   std::string text = head.dump(2);
   text.erase(text.rfind('\n'));
@@ -178,16 +171,15 @@ Reference read_reference(const std::string& path, const sim::Scene& scene, const
     reference.paths = json.at("paths");
     reference.photons = json.at("photons");
     reference.judged.population = json.at("population");
-    reference.missed_squared = {finite(json.at("missed_squared").at(0), "missed light"),
-                                finite(json.at("missed_squared").at(1), "an error")};
-    reference.missed_mean = finite(json.at("missed_mean"), "missed light");
-    reference.path_noise_squared = finite(json.at("path_noise_squared"), "a noise");
-    reference.seconds = finite(json.at("seconds"), "a number of seconds");
+    reference.missed_squared = {json.at("missed_squared").at(0), json.at("missed_squared").at(1)};
+    reference.missed_mean = json.at("missed_mean");
+    reference.path_noise_squared = json.at("path_noise_squared");
+    reference.seconds = json.at("seconds");
     for (const Json& numbers : json.at("samples")) add_sample(numbers, scene.samples.size(), reference);
     const std::size_t samples = std::min(key.samples, reference.judged.population);
     if (reference.irradiance.size() != samples)
       throw std::invalid_argument(fmt::format("it has {} samples, not {}", reference.irradiance.size(), samples));
-    if (json.at("checksum") != checksum_of(json, json.at("samples")))
+    if (json.at("checksum") != checksum_of_reference(json, json.at("samples")))
       throw sim::FileError(path, "was altered: it does not fit its checksum; give another file, or delete this one");
     return reference;
   } catch (const nlohmann::json::exception& error) {

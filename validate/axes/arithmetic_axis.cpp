@@ -51,7 +51,7 @@ PairScene scene_of(const char* name, double away, double near_rim, std::uint64_t
 
 /// The definition of a hit by a line, in any arithmetic: the crossing of the plane is within the radius.
 template <class Real>
-bool crosses(const sim::Ray& ray, const sim::Disc& disc) {
+bool crosses_disc(const sim::Ray& ray, const sim::Disc& disc) {
   const auto of = [](const glm::dvec3& v) { return std::array<Real, 3>{Real(v.x), Real(v.y), Real(v.z)}; };
   const auto d = of(ray.direction);
   const auto n = of(disc.normal);
@@ -70,26 +70,33 @@ bool crosses(const sim::Ray& ray, const sim::Disc& disc) {
   return square <= reach * reach;
 }
 
+/// For each ray and disc, whether it is hit.
+struct Decisions {
+  std::vector<char> hits;
+  double seconds = 0;
+};
+
 template <class Real>
-std::vector<char> decisions(const PairScene& scene, const std::stop_token& stop) {
-  std::vector<char> found;
-  found.reserve(scene.rays.size() * scene.discs.size());
+Decisions decisions(const PairScene& scene, const std::stop_token& stop) {
+  const sim::Stopwatch watch;
+  Decisions made;
+  made.hits.reserve(scene.rays.size() * scene.discs.size());
   for (const sim::Ray& ray : scene.rays) {
     sim::StopCheck(stop, "deciding hits").now();
-    for (const sim::Disc& disc : scene.discs) found.push_back(crosses<Real>(ray, disc) ? 1 : 0);
+    for (const sim::Disc& disc : scene.discs) made.hits.push_back(crosses_disc<Real>(ray, disc) ? 1 : 0);
   }
-  return found;
+  made.seconds = watch.seconds();
+  return made;
 }
 
-std::vector<char> decisions_by(const PairScene& scene, Engine engine, double& seconds) {
+Decisions decisions_by(const PairScene& scene, Engine engine) {
   const sim::Problem problem = sim::make_problem(scene.rays, scene.discs);
   const Candidate brute_force{Technique::brute_force, BruteForceParameters{}};
-  const sim::Outcome timed = sim::run(problem, brute_force, {.count = false, .engine = engine});
-  seconds = timed.seconds.total();
-  std::vector<char> found(scene.rays.size() * scene.discs.size());
+  Decisions made{std::vector<char>(scene.rays.size() * scene.discs.size())};
+  made.seconds = sim::run(problem, brute_force, {.count = false, .engine = engine}).seconds.total();
   for (const sim::Pair& pair : sim::run(problem, brute_force, {.count = false, .pairs = true, .engine = engine}).pairs)
-    found[pair.ray * scene.discs.size() + pair.disc] = 1;
-  return found;
+    made.hits[pair.ray * scene.discs.size() + pair.disc] = 1;
+  return made;
 }
 
 }  // namespace
@@ -99,39 +106,27 @@ std::vector<AxisPoint> arithmetic_axis(const AxisOptions& options) {
   std::vector<AxisPoint> points;
   for (const PairScene& scene :
        {scene_of("ordinary", 0, 0, options.seed), scene_of("hard", 1000, 1e-6, options.seed)}) {
-    sim::Stopwatch watch;
-    const auto exact = decisions<Exact>(scene, options.stop);
-    const double exact_seconds = watch.lap();
-    const auto single = decisions<float>(scene, options.stop);
-    const double single_seconds = watch.lap();
-    double filtered_seconds = 0;
-    double double_seconds = 0;
-    const auto filtered = decisions_by(scene, Engine::simd, filtered_seconds);
-    const auto in_double = decisions_by(scene, Engine::plain, double_seconds);
-    const auto pairs = static_cast<double>(exact.size());
+    const Decisions exact = decisions<Exact>(scene, options.stop);
     double hits = 0;
-    for (const char hit : exact) hits += hit;
-    const auto add = [&](const char* arithmetic, const std::vector<char>& found, double seconds) {
+    for (const char hit : exact.hits) hits += hit;
+    const auto add = [&](const char* arithmetic, const Decisions& made) {
       double wrong = 0;
-      for (std::size_t i = 0; i < exact.size(); ++i) wrong += found[i] != exact[i] ? 1 : 0;
-      constexpr double unseen = 3;  // events that may be missed with 5 % probability
-      const double half = wrong > 0 ? 2 * std::sqrt(wrong) : unseen;
+      for (std::size_t i = 0; i < exact.hits.size(); ++i) wrong += made.hits[i] != exact.hits[i] ? 1 : 0;
       points.push_back({.axis = "arithmetic",
                         .setting = fmt::format("{}, {} scene", arithmetic, scene.name),
                         .quantity = "decisions of hits",
                         .error = wrong / hits,
-                        .interval = AxisInterval{std::max(0.0, wrong - half) / hits, (wrong + half) / hits},
-                        .seconds = seconds,
-                        .work = pairs});
+                        .seconds = made.seconds,
+                        .work = static_cast<double>(exact.hits.size())});
+      constexpr double unseen = 3;  // events that may be missed with 5 % probability
+      const double half = wrong > 0 ? 2 * std::sqrt(wrong) : unseen;
+      points.back().interval = AxisInterval{std::max(0.0, wrong - half) / hits, (wrong + half) / hits};
     };
-    add("float", single, single_seconds);
-    add("float, filtered", filtered, filtered_seconds);
-    add("double", in_double, double_seconds);
-    points.push_back({.axis = "arithmetic",
-                      .setting = fmt::format("exact, {} scene", scene.name),
-                      .quantity = "decisions of hits",
-                      .seconds = exact_seconds,
-                      .work = pairs});
+    add("float", decisions<float>(scene, options.stop));
+    add("float, filtered", decisions_by(scene, Engine::simd));
+    add("double", decisions_by(scene, Engine::plain));
+    add("exact", exact);
+    points.back().interval.reset();  // by definition
   }
   return points;
 }

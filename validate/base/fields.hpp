@@ -57,15 +57,15 @@ enum class FieldPlace { json_and_tables, json_alone, tables_alone };
 /// One field of an answer. Tables have it under its name, unless it says otherwise.
 template <class Answer>
 struct Field {
-  /// `value` of an answer: a member, or a function.
+  /// The value of an answer: a member, or a function.
   template <class Value>
-  Field(std::string name, std::string unit, std::string meaning, Value value, FieldPlace place = {})
-      : name(std::move(name)),
-        unit(std::move(unit)),
-        meaning(std::move(meaning)),
-        value([value](const Answer& answer) { return json_value(std::invoke(value, answer)); }),
+  Field(std::string its_name, std::string its_unit, std::string its_meaning, Value its_value, FieldPlace place = {})
+      : name(std::move(its_name)),
+        unit(std::move(its_unit)),
+        meaning(std::move(its_meaning)),
+        value([its_value](const Answer& answer) { return json_value(std::invoke(its_value, answer)); }),
         in_json(place != FieldPlace::tables_alone) {
-    if (place != FieldPlace::json_alone) columns = {{this->name}};
+    if (place != FieldPlace::json_alone) columns = {{name}};
   }
 
   /// The same field under these columns; none: it stands in JSON alone.

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "detp/sim/base/stopped.hpp"
-#include "detp/validate/accuracy/accuracy_report.hpp"
 
 namespace detp::validate {
 namespace {

@@ -1,4 +1,4 @@
-#include "detp/validate/accuracy/reference_file.hpp"
+#include "detp/validate/accuracy/reference.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/validate/accuracy/accuracy_report.hpp"
+#include "detp/validate/accuracy/accuracy_answer.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/options/value_lists.hpp"
@@ -46,7 +46,7 @@ AccuracyTarget target_of(const AccuracyOptions& options) {
   using Kind = AccuracyTarget::Kind;
   if (options.error) return {Kind::total, parse_share("--target-error", *options.error)};
   if (options.seconds) return {Kind::seconds, *options.seconds};
-  return {Kind::noise, options.noise ? parse_share("--target-noise", *options.noise) : 0.05};
+  return options.noise ? AccuracyTarget{Kind::noise, parse_share("--target-noise", *options.noise)} : AccuracyTarget{};
 }
 
 std::vector<sim::Estimator> estimators_of(const AccuracyOptions& options) {
