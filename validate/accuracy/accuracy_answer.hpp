@@ -13,7 +13,7 @@
 #include "detp/sim/base/progress.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/scene/selection.hpp"
-#include "detp/validate/answer/fields.hpp"
+#include "detp/validate/base/fields.hpp"
 #include "detp/validate/axes/axes.hpp"
 #include "detp/validate/whole/whole.hpp"
 

@@ -40,7 +40,7 @@ inline constexpr double doubtful_share = 0.9;
 struct CalibrationQuality {
   double left_out_median_error = 0;  ///< of all runs on one thread, by fits to other workloads
   double processor_share = 1;        ///< processor time over wall time of these runs; other programs took the rest
-  /// built-in costs, scaled by a few short searches (costs_in_use.hpp); never doubtful, because it promises little
+  /// built-in costs, scaled by a few short searches (calibration_file.hpp); never doubtful, because it promises little
   bool probe = false;
 
   /// Why predictions by these costs are doubtful, in words; empty if they are not.

@@ -194,11 +194,11 @@ const Fields<Claim>& claim_fields() {
                    {"control_verdict", "/verdict"}}),
           {"lines", "", "that were counted on", &Claim::lines},
           {"seconds", "s", "of the experiment", &Claim::seconds}} +
-      fields_of_part<Answer>(refinement_fields(), &Claim::refinement);
+      fields_of_part<Claim>(refinement_fields(), &Claim::refinement);
   return fields;
 }
 
-std::vector<FieldText> validate_fields() {
+std::vector<FieldText> describe_validate() {
   return describe_fields(claim_fields()) + describe_fields(searched_fields()) + describe_fields(summary_fields()) +
          describe_fields(deviation_fields());
 }

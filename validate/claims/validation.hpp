@@ -53,7 +53,7 @@ struct ValidateAnswer {
 
 [[nodiscard]] const Fields<Claim>& claim_fields();
 /// What the list of fields says: of claims, of the sweep's summaries and of its rows.
-[[nodiscard]] std::vector<FieldText> validate_fields();
+[[nodiscard]] std::vector<FieldText> describe_validate();
 
 /// All but the inputs.
 [[nodiscard]] Json json_of(const ValidateAnswer& answer);

@@ -124,9 +124,11 @@ Command calibrate_command(CLI::App& program) {
   const auto options = std::make_shared<CalibrateOptions>();
   add_number(*app, "--seconds", options->seconds, "time for the measurements; default: 8");
   options->instruction_set.add_to(*app, "the kernels, one");
-  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
+  return {app,
+          [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_calibrate(*options, common, stop);
-          }};
+          },
+          false, validate::describe_calibrate()};
 }
 
 }  // namespace detp::cli

@@ -265,9 +265,10 @@ Command model_command(CLI::App& program) {
       "of the irradiance, relative, as 5% or 0.05: adds the rays that reach it");
   app->add_flag("--verbose", options->verbose,
                 "text with all that JSON has: every sphere, count and time; default: sentences");
-  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
-            return run_model(*options, common, stop);
-          }};
+  return {
+      app,
+      [options](const CommonOptions& common, const std::stop_token& stop) { return run_model(*options, common, stop); },
+      false, validate::describe_model()};
 }
 
 }  // namespace detp::cli

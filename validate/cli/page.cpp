@@ -93,9 +93,11 @@ Command report_command(CLI::App& program) {
   app->add_option("--target-noise", options->target_noise, "noise whose cost is asked for; default: 5%");
   app->add_flag("--quick", options->quick,
                 "smaller map, pilots of some seconds, closed forms of one technique; default: all of it");
-  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
+  return {app,
+          [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_report(*options, common, stop);
-          }};
+          },
+          false, validate::describe_report()};
 }
 
 }  // namespace detp::cli

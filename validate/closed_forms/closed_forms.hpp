@@ -124,7 +124,7 @@ struct ModelComparison {
 [[nodiscard]] const Fields<Outlook>& error_fields();
 
 /// What the lists of fields say: of an answer, of its spheres and of the inputs.
-[[nodiscard]] std::vector<FieldText> model_fields();
+[[nodiscard]] std::vector<FieldText> describe_model();
 
 /// The inputs that are not of the workload.
 [[nodiscard]] Json inputs_of(const ModelRequest& request);

@@ -187,7 +187,7 @@ const Fields<Outlook>& error_fields() {
   return fields;
 }
 
-std::vector<FieldText> model_fields() {
+std::vector<FieldText> describe_model() {
   return describe_fields(answer_fields()) + describe_fields(level_fields()) + describe_fields(model_input_fields()) +
          describe_fields(cost_fields());
 }

@@ -274,7 +274,7 @@ const Fields<ReportPart>& part_fields() {
   return fields;
 }
 
-std::vector<FieldText> report_fields() { return describe_fields(input_fields()) + describe_fields(part_fields()); }
+std::vector<FieldText> describe_report() { return describe_fields(input_fields()) + describe_fields(part_fields()); }
 
 Json answer(const ReportRequest& request, const Ask& ask, const std::stop_token& stop,
             const sim::ReportPhase& progress) {

@@ -52,7 +52,7 @@ using Ask = std::function<Json(const std::vector<std::string>& words)>;
 /// The fields of a part; its columns are those of the table.
 [[nodiscard]] const Fields<ReportPart>& part_fields();
 /// What the lists of fields say: of the inputs, and of a part.
-[[nodiscard]] std::vector<FieldText> report_fields();
+[[nodiscard]] std::vector<FieldText> describe_report();
 
 /// The report as HTML: complete, with nothing outside of it. All text of the report is escaped, and a content security policy allows only the
 /// page's own style and script. The same report gives the same bytes. Throws std::invalid_argument if the report has numbers where a

@@ -41,7 +41,7 @@ TEST_SUITE("claims") {
     const Json json = json_of(found);
     CHECK(json["claims"][0]["control"]["verdict"] == rows.front()["control_verdict"]);
     CHECK_FALSE(json["claims"][0].contains("reached"));
-    for (const FieldText& field : validate_fields()) CHECK_FALSE(field.meaning.empty());
+    for (const FieldText& field : describe_validate()) CHECK_FALSE(field.meaning.empty());
   }
 
   TEST_CASE("counted until the error is small, claims say how far they got") {

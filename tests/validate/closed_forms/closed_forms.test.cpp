@@ -60,7 +60,7 @@ TEST_SUITE("fields") {
         CHECK_FALSE(value.is_structured());
       }
     }
-    for (const FieldText& field : model_fields()) CHECK_FALSE(field.meaning.empty());
+    for (const FieldText& field : describe_model()) CHECK_FALSE(field.meaning.empty());
   }
 }
 

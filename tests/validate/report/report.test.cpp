@@ -53,7 +53,7 @@ TEST_SUITE("report") {
     const Json report = answer({.scene = "@tree"}, ask);
     CHECK(report["parts"].size() == 2);
     CHECK(report["stopped"] == true);
-    for (const FieldText& field : report_fields()) CHECK_FALSE(field.meaning.empty());
+    for (const FieldText& field : describe_report()) CHECK_FALSE(field.meaning.empty());
   }
 }
 

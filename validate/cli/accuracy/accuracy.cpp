@@ -263,7 +263,7 @@ Command accuracy_command(CLI::App& program) {
           [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_accuracy(*options, common, stop);
           },
-          true};
+          true, validate::describe_accuracy()};
 }
 
 }  // namespace detp::cli

@@ -207,9 +207,11 @@ Command bench_command(CLI::App& program) {
       "with --regret: 84 workloads in scenes that this seed makes, instead of those of the effort; default: not");
   command->costs.add_to(*app);
   command->app = app;
-  return {app, [command](const CommonOptions& common, const std::stop_token& stop) {
+  return {app,
+          [command](const CommonOptions& common, const std::stop_token& stop) {
             return run_command_bench(*command, common, stop);
-          }};
+          },
+          false, validate::describe_bench() + validate::describe_regret()};
 }
 
 }  // namespace detp::cli

@@ -14,6 +14,7 @@
 #include "detp/validate/cli/report/effects_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
+#include "detp/validate/map/map_summary.hpp"
 
 namespace detp::cli {
 namespace {
@@ -221,9 +222,11 @@ Command choose_command(CLI::App& program) {
   app->add_option("--checkpoint", options->checkpoint,
                   "with --map and --analyze: keep the measured cells in this file; default: none");
   app->add_flag("--resume", options->resume, "go on from the checkpoint; default: begin anew");
-  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
+  return {app,
+          [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_choose(*options, common, stop);
-          }};
+          },
+          false, validate::describe_choose() + validate::describe_map()};
 }
 
 }  // namespace detp::cli

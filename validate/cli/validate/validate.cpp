@@ -153,7 +153,7 @@ Command validate_command(CLI::App& program) {
           [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_validate(*options, common, stop);
           },
-          true};
+          true, validate::describe_validate()};
 }
 
 }  // namespace detp::cli
