@@ -8,8 +8,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace detp::validate;
   try {
-    const Calibration stored =
-        parse_calibration(std::string(detp::fuzz::text_of(data, size)), "calibration.json");
+    const Calibration stored = parse_calibration(std::string(detp::fuzz::text_of(data, size)), "calibration.json");
     check(stored.simd);
     check(stored.plain);
     if (difference(stored.key, this_machine()).size() > 400) std::abort();

@@ -16,7 +16,6 @@
 #include "detp/sim/photons/light_notes.hpp"
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
-#include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/checkpoint/checkpoint_file.hpp"
 #include "detp/validate/job/job.hpp"
 

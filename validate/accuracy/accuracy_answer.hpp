@@ -13,8 +13,8 @@
 #include "detp/sim/base/progress.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/scene/selection.hpp"
-#include "detp/validate/base/fields.hpp"
 #include "detp/validate/axes/axes.hpp"
+#include "detp/validate/base/fields.hpp"
 #include "detp/validate/whole/whole.hpp"
 
 /// What accuracy costs in a scene, from the question to the answer: all that `detp accuracy` does.

@@ -14,7 +14,6 @@
 #include "detp/sim/files/input_file.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/validate/base/json.hpp"
-#include "detp/validate/base/json.hpp"
 
 namespace detp::validate {
 namespace {

@@ -198,9 +198,43 @@ const Fields<Claim>& claim_fields() {
   return fields;
 }
 
+namespace {
+
+Json claims_json(const ValidateAnswer& answer) {
+  Json json = Json::array();
+  for (const Claim& claim : answer.shown) {
+    json.push_back(json_of(claim_fields(), claim));
+    json.back().update(json_of(searched_fields(), claim));
+  }
+  return json;
+}
+
+Json sweep_json(const SweepResult& sweep) {
+  return {{"points", sweep.points},
+          {"measured", sweep.measured},
+          {"resumed", sweep.resumed},
+          {"summary", rows_json(summary_fields(), summarise(sweep.deviations))}};
+}
+
+const Fields<ValidateAnswer>& answer_fields() {
+  using Answer = ValidateAnswer;
+  constexpr FieldPlace alone = FieldPlace::json_alone;
+  static const Fields<Answer> fields{
+      {"effects", "", "on a scene: what predictions take into account, and why",
+       [](const Answer& answer) { return to_json(answer.effects); }, alone},
+      {"summary", "", "numbers of verdicts on corrected forms, published forms, controls and predictions of the choice",
+       [](const Answer& answer) { return summary_json(answer.claims); }, alone},
+      {"claims", "", "each prediction beside what was counted", claims_json, alone},
+      {"sweep", "", "of --effort thorough: each quantity over its whole range", of_part(&Answer::sweep, sweep_json),
+       alone}};
+  return fields;
+}
+
+}  // namespace
+
 std::vector<FieldText> describe_validate() {
-  return describe_fields(claim_fields()) + describe_fields(searched_fields()) + describe_fields(summary_fields()) +
-         describe_fields(deviation_fields());
+  return describe_fields(answer_fields()) + describe_fields(claim_fields()) + describe_fields(searched_fields()) +
+         describe_fields(summary_fields()) + describe_fields(deviation_fields());
 }
 
 bool ValidateAnswer::refuted() const {
@@ -242,20 +276,7 @@ ValidateAnswer answer(const ValidateRequest& request, const std::stop_token& sto
 
 Json json_of(const ValidateAnswer& answer) {
   Json json = answer.scene;
-  json["effects"] = to_json(answer.effects);
-  json["summary"] = summary_json(answer.claims);
-  json["claims"] = Json::array();
-  for (const Claim& claim : answer.shown) {
-    json["claims"].push_back(json_of(claim_fields(), claim));
-    json["claims"].back().update(json_of(searched_fields(), claim));
-  }
-  if (!answer.sweep) return json;
-  json["sweep"] = {{"points", answer.sweep->points},
-                   {"measured", answer.sweep->measured},
-                   {"resumed", answer.sweep->resumed},
-                   {"summary", Json::array()}};
-  for (const DeviationSummary& summary : summarise(answer.sweep->deviations))
-    json["sweep"]["summary"].push_back(json_of(summary_fields(), summary));
+  json.update(json_of(answer_fields(), answer));
   return json;
 }
 

@@ -31,14 +31,19 @@ Units: lengths as in the scene. Irradiance is the rays' power over area. Ke of a
 /// A line for each field of an answer: its name in JSON, what it means, and its columns in CSV if they have other names.
 std::string help_of_fields(const std::vector<validate::FieldText>& fields, std::size_t width) {
   constexpr std::size_t indent = 26;
-  std::string text = "JSON has these fields besides inputs and provenance, CSV columns of the same names:\n\n";
+  std::string text =
+      "JSON has these fields besides inputs, provenance and stopped (before the end), CSV columns of the same "
+      "names:\n\n";
   for (const validate::FieldText& field : fields) {
-    std::string line = fmt::format("  {:<{}} {}", field.name, indent - 3, field.meaning);
+    const bool in_json = !field.name.empty();
+    std::string line =
+        fmt::format("  {:<{}} {}", in_json ? field.name : field.columns.front(), indent - 3, field.meaning);
     if (!field.unit.empty()) line += fmt::format(" ({})", field.unit);
     if (field.columns.empty()) line += "; in JSON alone";
+    if (!in_json) line += "; in CSV alone";
     if (field.columns.size() > 8)
       line += fmt::format("; columns {}, {} … {}", field.columns[0], field.columns[1], field.columns.back());
-    else if (!field.columns.empty() && field.columns != validate::Columns{field.name})
+    else if (in_json && !field.columns.empty() && field.columns != validate::Columns{field.name})
       line += fmt::format("; columns {}", fmt::join(field.columns, ", "));
     text += wrapped(line, width, indent);
   }

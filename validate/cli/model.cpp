@@ -194,14 +194,13 @@ std::string model_text(const ModelRequest& request, const ModelAnswer& answer, c
     return text;
   }
   const Json json = json_of(answer);
-  return text + "\n" + scalars({{"technique", name(answer.candidate.technique)}}) + scalars(json) +
-         level_table(json.value("spheres", Json::array()));
+  return text + "\n" + scalars(json) + level_table(json.value("spheres", Json::array()));
 }
 
 AnswerRow model_row(const ModelRequest& request, const ModelAnswer& answer, const Json& inputs) {
-  AnswerRow row{inputs, {{"technique", name(request.technique)}}, {}};
+  AnswerRow row{inputs, {}, {}};
   row.inputs.update(inputs_of(request));
-  row.answer.update(json_of(answer));
+  row.answer = json_of(answer);
   for (const Json& cells : cells_of(request, answer)) {
     row.cells.push_back(workload_cells(inputs));
     row.cells.back().update(cells);

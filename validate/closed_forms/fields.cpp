@@ -142,7 +142,10 @@ Json notes_json(const Answer& answer) { return answer.outlook.notes.empty() ? le
 const Fields<Answer>& answer_fields() {
   using One = Field<Answer>;
   static const Fields<Answer> fields =
-      Fields<Answer>{One("parameters", "", "of the technique", [](const Answer& one) { return to_json(one.candidate); })
+      Fields<Answer>{One("technique", "", "that the closed forms describe",
+                         [](const Answer& one) { return name(one.candidate.technique); })
+                         .in_json_alone(),
+                     One("parameters", "", "of the technique", [](const Answer& one) { return to_json(one.candidate); })
                          .in_json_alone(),
                      One("form", "", "published: the paper's; corrected: ours",
                          [](const Answer& one) { return name(one.form); })} +

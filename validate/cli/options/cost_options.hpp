@@ -21,7 +21,6 @@ using validate::to_json;
 /// or not finite.
 [[nodiscard]] std::optional<UnitCosts> parse_unit_costs(const std::string& text);
 
-
 /// Beside predicted seconds: a line on standard error if they are doubtful.
 void note_doubt(const CostsInUse& costs, const CommonOptions& common);
 
