@@ -22,7 +22,7 @@ class Pages(unittest.TestCase):
             self.assertTrue(programs, page)
             for program in programs:
                 with self.subTest(page):
-                    exec(program.replace("scene.obj", "@cornell").replace('"5%"', '"20%", "--effort", "quick"'), dict(names))
+                    exec(program.replace("scene.obj", "@cornell").replace('"--target-noise", "5%"', '"--target-noise", "20%", "--effort", "quick"'), dict(names))
 
 
 if __name__ == "__main__":

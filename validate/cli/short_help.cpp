@@ -28,6 +28,7 @@ Rays   ox,oy,oz,dx,dy,dz and, if wanted, length, power, photon, landing.
 Example: detp choose @tree --rays 100000 --disc-radius 1% --analyze
 Example: detp choose @tree --map --disc-radius 1%,4%,16% -o map.svg
 All options: detp choose --help all
+Fields of the answer: detp choose --help fields
 )";
   if (command == "run")
     return R"(The hits and the irradiance, by one technique
@@ -61,6 +62,7 @@ Units  irradiance: the rays' power over area. Ke: radiance of a face's front.
 Example: detp run @cornell --target-noise 5%
 Example: detp run @tree --rays 100000 --technique octree --per-disc out.csv
 All options: detp run --help all
+Fields of the answer: detp run --help fields
 )";
   if (command == "accuracy")
     return R"(What accuracy costs in time: rays, setting and estimator for an error
@@ -91,6 +93,7 @@ mean square irradiance.
 Example: detp accuracy @cornell --target-noise 5%
 Example: detp accuracy @cornell --time-budget 2
 All options: detp accuracy --help all
+Fields of the answer: detp accuracy --help fields
 )";
   if (command == "model")
     return R"(The closed forms for one technique
@@ -117,6 +120,7 @@ Output
 Numbers may be lists and ranges, as 1%,2%,4% and 0.3:0.9:0.05: a row for each.
 Example: detp model --rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2
 All options: detp model --help all
+Fields of the answer: detp model --help fields
 )";
   if (command == "validate")
     return R"(Each formula against what simulation counts, with a verdict
@@ -143,6 +147,7 @@ Output
 Exit code 1: a corrected formula was refuted, or a negative control missed.
 Example: detp validate --experiments sphere-cache --ratio 0.65
 All options: detp validate --help all
+Fields of the answer: detp validate --help fields
 )";
   if (command == "scene")
     return R"(What is in a scene; writes scenes, discs and rays to files
@@ -165,6 +170,7 @@ Output
 
 Example: detp scene @tree --rays 100000 --write-rays paths.csv
 All options: detp scene --help all
+Fields of the answer: detp scene --help fields
 )";
   if (command == "bench")
     return R"(Our techniques and Embree on the same rays and discs, timed in turns
@@ -187,6 +193,7 @@ Output
 
 Example: detp bench @tree --rays 100k --disc-radius 1%
 All options: detp bench --help all
+Fields of the answer: detp bench --help fields
 )";
   if (command == "calibrate")
     return R"(The unit costs of this machine, saved for later commands
@@ -202,6 +209,7 @@ Without it, unit costs are those of another machine, scaled by a probe of 0.2 s.
 Let nothing else run meanwhile.
 Example: detp calibrate --seconds 10
 All options: detp calibrate --help all
+Fields of the answer: detp calibrate --help fields
 )";
   if (command == "report")
     return R"(One page that answers, then shows: choice, accuracy, verdicts
@@ -218,6 +226,7 @@ Usage: detp report SCENE -o FILE.html [options]
 
 Example: detp report @tree -o report.html
 All options: detp report --help all
+Fields of the answer: detp report --help fields
 )";
   return {};
 }

@@ -16,7 +16,7 @@
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/job/job.hpp"
 
-/// A run of a candidate on which all ranks agree, its times, and the files of what it found.
+/// A run of a candidate on which all ranks agree, and its times.
 namespace detp::validate {
 
 /// A candidate, the number of threads of its run, and the choice if it came by one.
@@ -84,15 +84,5 @@ struct Timing {
 [[nodiscard]] Timing time_runs(const Job& job, const sim::EstimateRequest& request, const JobRun& counted, int repeat,
                                const sim::RunOptions& options, const sim::ReportPhase& progress,
                                const Together& together = {});
-
-// The files of what a run found appear complete or not at all. Throw sim::FileError, and sim::Stopped on a stop request.
-
-/// "ray,disc" for each pair. `order`: numbers of the rays in their file; empty if they have the file's order.
-void write_pairs(const std::string& path, const JobRun& run, const std::vector<std::uint32_t>& order,
-                 const std::stop_token& stop);
-
-/// Hits and irradiance of each disc; with standard errors and bounds if they were asked for.
-void write_per_disc(const std::string& path, const JobRun& run, const std::vector<std::uint32_t>& vertices,
-                    const std::stop_token& stop);
 
 }  // namespace detp::validate

@@ -121,6 +121,21 @@ struct JobAndRun {
 [[nodiscard]] JobAndRun answer(const RunRequest& request, const std::stop_token& stop = {},
                                const sim::ReportPhase& progress = {});
 
+/// Files of what a run found. They appear complete or not at all.
+struct RunFiles {
+  std::optional<std::string> per_disc = {};  ///< hits and irradiance of each disc, as CSV
+  std::optional<std::string> pairs = {};     ///< "ray,disc" of each pair, as CSV
+};
+
+struct WrittenRun {
+  std::vector<std::string> notices = {};
+  std::optional<sim::Progress> stopped = {};  ///< if a stop request ended the run, the writing or the timed runs
+};
+
+/// Throws sim::FileError.
+[[nodiscard]] WrittenRun write_files(const RunFiles& files, const Job& job, const RunAnswer& answer,
+                                     const std::stop_token& stop = {});
+
 /// The paper has formulas for the technique's counts.
 [[nodiscard]] bool is_published(Technique technique);
 

@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "detp/model/vocabulary/checks.hpp"
-#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/validate/accuracy/accuracy_answer.hpp"
 #include "detp/validate/cli/command.hpp"
+#include "detp/validate/cli/options/candidate_options.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/options/value_lists.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
@@ -47,21 +47,6 @@ AccuracyTarget target_of(const AccuracyOptions& options) {
   if (options.error) return {Kind::total, parse_share("--target-error", *options.error)};
   if (options.seconds) return {Kind::seconds, *options.seconds};
   return options.noise ? AccuracyTarget{Kind::noise, parse_share("--target-noise", *options.noise)} : AccuracyTarget{};
-}
-
-std::vector<sim::Estimator> estimators_of(const AccuracyOptions& options) {
-  std::vector<sim::Estimator> chosen;
-  for (const std::string& text : options.estimators) {
-    const auto found = std::ranges::find(sim::estimators, std::string_view(text), &sim::EstimatorRecord::name);
-    if (found == sim::estimators.end()) {
-      std::vector<std::string_view> names;
-      for (const sim::EstimatorRecord& one : sim::estimators) names.push_back(one.name);
-      throw std::invalid_argument(
-          fmt::format("there is no estimator {}; there are {}", detp::quoted(text), fmt::join(names, ", ")));
-    }
-    chosen.push_back(found->estimator);
-  }
-  return chosen;
 }
 
 /// What a command that repeats a point has after its options.
@@ -106,7 +91,7 @@ validate::AccuracyRequest request_of(const AccuracyOptions& options, const Commo
   if (options.lights) request.scene.lights = parse_lights(*options.lights);
   if (options.up) request.scene.up = parse_up(*options.up);
   if (options.crease) request.crease = parse_crease(*options.crease);
-  request.estimators = estimators_of(options);
+  for (const std::string& text : options.estimators) request.estimators.push_back(parse_estimator(text));
   return request;
 }
 

@@ -107,6 +107,16 @@ Technique parse_technique(const std::string& text) {
   return *found;
 }
 
+sim::Estimator parse_estimator(const std::string& text) {
+  std::vector<std::string_view> names;
+  for (const sim::EstimatorRecord& one : sim::estimators) {
+    if (text == one.name) return one.estimator;
+    names.push_back(one.name);
+  }
+  throw std::invalid_argument(fmt::format("there is no estimator {}; there are {}{}", detp::quoted(text),
+                                          fmt::join(names, ", "), did_you_mean(text, names)));
+}
+
 model::FixedParameters CandidateOptions::fixed_parameters(Technique chosen) const {
   const auto require_known = [&](std::string_view parameter) {
     if (find_parameter(chosen, parameter) == nullptr)

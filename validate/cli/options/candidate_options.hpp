@@ -10,6 +10,7 @@
 #include "detp/model/optimum/best_ratio.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/estimate/estimator.hpp"
 #include "value_lists.hpp"
 
 /// What is searched, and how: a technique, its parameters, engine and instruction set.
@@ -31,6 +32,9 @@ inline constexpr const char* engine_help =
 
 /// Throws std::invalid_argument for an unknown name, listing the known names.
 [[nodiscard]] Technique parse_technique(const std::string& text);
+
+/// Throws std::invalid_argument for an unknown name, listing the known names.
+[[nodiscard]] sim::Estimator parse_estimator(const std::string& text);
 
 /// The options for a technique and its parameters. Commands choose what is not set. The parser keeps pointers to this
 /// object.

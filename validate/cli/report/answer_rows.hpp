@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/base/phase.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/validate/answer/parts.hpp"
 #include "detp/validate/cli/options/value_lists.hpp"
@@ -33,6 +34,34 @@ struct TextColumns {
   Columns answers;  ///< always columns, if any row has them
   Screen screen;
   std::string legend = {};  ///< below the table
+};
+
+/// Divides the progress among the rows of a table: for each problem first that of making it, then that of its candidates.
+class RowProgress {
+ public:
+  /// `work` of each problem with all of its candidates, in any unit.
+  RowProgress(const std::vector<double>& work, std::size_t candidates) : candidates_(candidates) {
+    for (const double one : work) ends_.push_back((ends_.empty() ? 0 : ends_.back()) + one);
+  }
+
+  sim::ReportPhase job(sim::ReportPhase whole) {
+    const double begin = row_ < candidates_ ? 0 : ends_[row_ / candidates_ - 1];
+    after_job_ = begin + (ends_[row_ / candidates_] - begin) * share_of_job;
+    return sim::part_of(std::move(whole), begin / ends_.back(), after_job_ / ends_.back());
+  }
+  sim::ReportPhase next(sim::ReportPhase whole) {
+    const double each = (ends_[row_ / candidates_] - after_job_) / static_cast<double>(candidates_);
+    const double begin = after_job_ + each * static_cast<double>(row_++ % candidates_);
+    return sim::part_of(std::move(whole), begin / ends_.back(), (begin + each) / ends_.back());
+  }
+
+ private:
+  static constexpr double share_of_job = 0.3;
+
+  std::size_t candidates_;
+  std::vector<double> ends_;  ///< of each problem: the sum of the work up to its end
+  std::size_t row_ = 0;
+  double after_job_ = 0;
 };
 
 /// Number of rows for all combinations of both lists. Throws std::length_error for more than most_rows.

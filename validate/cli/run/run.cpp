@@ -1,12 +1,9 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 #include <stdexcept>
 
-#include "detp/model/vocabulary/nearest_name.hpp"
-#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/validate/accuracy/judged_samples.hpp"
@@ -37,9 +34,8 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;  ///< of a row, by --seeds
   CostOptions costs;
   int repeat = 0;
-  std::optional<std::string> per_disc;
   bool standard_error = false;
-  std::optional<std::string> pairs;
+  validate::RunFiles files;
   bool verbose = false;
   std::optional<std::string> target_noise;
   std::optional<std::string> target_error;
@@ -48,16 +44,6 @@ struct RunOptions {
   std::optional<std::string> share;
   std::optional<std::string> form;
 };
-
-sim::Estimator parse_estimator(const std::string& text) {
-  std::vector<std::string_view> names;
-  for (const sim::EstimatorRecord& one : sim::estimators) {
-    if (text == one.name) return one.estimator;
-    names.push_back(one.name);
-  }
-  throw std::invalid_argument(fmt::format("there is no estimator {}; there are {}{}", detp::quoted(text),
-                                          fmt::join(names, ", "), did_you_mean(text, names)));
-}
 
 /// Nothing without a target.
 std::optional<validate::RunTarget> target_of(const RunOptions& options) {
@@ -111,7 +97,7 @@ RunRequest request_of(const RunOptions& options, const CommonOptions& common) {
   request.paths = static_cast<std::uint64_t>(paths);
   if (options.form) request.form = choice_named<Form>(*options.form);
   request.repeat = options.repeat;
-  request.pairs = options.pairs.has_value();
+  request.pairs = options.files.pairs.has_value();
   request.standard_error = options.standard_error;
   request.target = target_of(options);
   if (options.share)
@@ -123,10 +109,10 @@ RunRequest request_of(const RunOptions& options, const CommonOptions& common) {
 /// Throws std::invalid_argument for options that exclude each other, and for those that no row uses.
 void check_options(const RunOptions& options, const std::vector<RunRequest>& candidates, std::size_t rows,
                    bool in_memory) {
-  if (rows > 1 && (options.per_disc || options.pairs))
+  if (rows > 1 && (options.files.per_disc || options.files.pairs))
     throw std::invalid_argument("--per-disc and --pairs write the hits of one run; give one value for each option");
   if (rows > 1 && in_memory) throw std::invalid_argument("one run is kept in memory; give one value for each option");
-  if (options.standard_error && !options.per_disc && !in_memory)
+  if (options.standard_error && !options.files.per_disc && !in_memory)
     throw std::invalid_argument("--standard-error is a column of --per-disc FILE; give that too");
   if (options.target.checkpoint && rows > 1)
     throw std::invalid_argument("--checkpoint keeps one run with --target-noise or --target-error");
@@ -153,67 +139,15 @@ std::vector<RunRequest> candidates_of(RunOptions& options, const CommonOptions& 
   return all;
 }
 
-/// Returns the progress if a stop request ended the run, the writing or the timed runs; else nothing.
-std::optional<sim::Progress> write_hits(const RunOptions& options, const validate::Job& job, const RunAnswer& answer,
-                                        const CommonOptions& common, const std::stop_token& stop) {
-  const sim::Outcome& outcome = answer.run.outcome;
-  // By the photons so far, the irradiance is an estimate; sums over other rays would be too small.
-  const bool is_estimate = outcome.stopped && answer.taken;
-  if (outcome.stopped && ((options.per_disc && !is_estimate) || options.pairs))
-    note(common, "stopped before the end: --per-disc and --pairs are not written, because they would be partial");
-  if (is_estimate && options.per_disc) {
-    note(common, fmt::format("{} has the irradiance by the photons of the first {} rays", *options.per_disc,
-                             outcome.progress.done));
-    write_per_disc(*options.per_disc, answer.run, job.vertices, {});
+/// A scene with its rays is expected to take a constant time (for scene and index) plus a term proportional to the number of rays.
+std::vector<double> work_of_problems(RunOptions& options, const CommonOptions& common) {
+  std::vector<double> work;
+  for (std::size_t i = 0; i < options.workload.lists.rows(); ++i) {
+    options.workload.lists.choose_row(i);
+    work.push_back(options.workload.request(common).rays.value_or(1e5) + 3e4);
   }
-  if (outcome.stopped) return outcome.progress;
-  try {
-    if (options.per_disc) write_per_disc(*options.per_disc, answer.run, job.vertices, stop);
-    if (options.pairs) write_pairs(*options.pairs, answer.run, job.file_order, stop);
-  } catch (const sim::Stopped& stopped) {
-    note(common, fmt::format("{}; the file is not kept", stopped.what()));
-    return stopped.progress();
-  }
-  if (answer.until && answer.until->result.reason == validate::StopReason::time) return outcome.progress;
-  const std::size_t timed = answer.timing.all.size();
-  if (options.repeat > 0 && timed < static_cast<std::size_t>(options.repeat))
-    return sim::Progress{timed, static_cast<std::uint64_t>(options.repeat), "timed runs"};
-  return std::nullopt;
+  return work;
 }
-
-/// Divides the progress among the rows of a table. A scene with its rays is expected to take a constant time (for scene
-/// and index) plus a term proportional to the number of rays.
-class RowProgress {
- public:
-  RowProgress(RunOptions& options, const CommonOptions& common) : candidates_(options.candidate.lists.rows()) {
-    ValueLists& problems = options.workload.lists;
-    for (std::size_t i = 0; i < problems.rows(); ++i) {
-      problems.choose_row(i);
-      ends_.push_back((ends_.empty() ? 0 : ends_.back()) + options.workload.request(common).rays.value_or(1e5) + 3e4);
-    }
-  }
-
-  sim::ReportPhase job(sim::ReportPhase whole) {
-    const double begin = row_ < candidates_ ? 0 : ends_[row_ / candidates_ - 1];
-    const double length = ends_[row_ / candidates_] - begin;
-    after_job_ = begin + length * share_of_job;
-    return sim::part_of(std::move(whole), begin / ends_.back(), after_job_ / ends_.back());
-  }
-
-  sim::ReportPhase next(sim::ReportPhase whole) {
-    const double each = (ends_[row_ / candidates_] - after_job_) / static_cast<double>(candidates_);
-    const double begin = after_job_ + each * static_cast<double>(row_++ % candidates_);
-    return sim::part_of(std::move(whole), begin / ends_.back(), (begin + each) / ends_.back());
-  }
-
- private:
-  static constexpr double share_of_job = 0.3;
-
-  std::size_t candidates_;
-  std::vector<double> ends_;  ///< for each problem: the sum of the expected times up to its end
-  std::size_t row_ = 0;
-  double after_job_ = 0;
-};
 
 /// The resolved inputs; those of the job are there.
 void add_inputs(Json& inputs, const RunRequest& request) {
@@ -251,7 +185,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   check_options(options, candidates_of(options, common), expected, common.in_memory);
   const CostsInUse costs = options.costs.costs(common);
   const ProgressLine progress(common.quiet);
-  RowProgress rows(options, common);
+  RowProgress rows(work_of_problems(options, common), candidates.rows());
   // Short text shows nothing that has to be measured.
   const bool is_short = common.format == "text" && expected == 1 && !options.verbose;
   Json inputs;
@@ -277,7 +211,9 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     if (!common.answers()) return AnswerRow{};
     for (const std::string& one : answer_warnings(job, found)) note(common, "warning: " + one);
     if (found.until && found.until->mirror_share > 0) note(common, validate::mirror_notice(found.until->mirror_share));
-    stopped = write_hits(options, job, found, common, stop);
+    const validate::WrittenRun written = write_files(options.files, job, found, stop);
+    for (const std::string& notice : written.notices) note(common, notice);
+    stopped = written.stopped;
     not_reached = found.until && found.until->result.reason != validate::StopReason::target;
     const validate::Whole measured = measured_whole(job, found, since_start.seconds());
     if (expected == 1) text = to_text(job, found, measured, common.screen(), options.verbose);
@@ -342,12 +278,12 @@ Command run_command(CLI::App& program) {
                 "also print effects, and the counts with their predictions; default: a short answer");
   add_number(*app, "--repeat", options->repeat,
              "time that many further runs, which do not count; the median is shown; default: 0");
-  app->add_option("--per-disc", options->per_disc,
+  app->add_option("--per-disc", options->files.per_disc,
                   "write disc,hits,irradiance as CSV, in input order, and the vertex in the mesh (-1: none)");
   app->add_flag("--standard-error", options->standard_error,
                 "add to --per-disc the standard error of each irradiance, for independent photons, and where a few "
                 "photons bring most of it, an upper bound (95 %) of the irradiance");
-  app->add_option("--pairs", options->pairs, "write the hits as CSV ray,disc");
+  app->add_option("--pairs", options->files.pairs, "write the hits as CSV ray,disc");
   app->add_option("--target-noise", options->target_noise,
                   "run until the noise (root mean square over the discs by area, relative to the root mean square "
                   "irradiance) is smaller, as 5%; --rays is then the limit (1e9); default: not");
