@@ -38,7 +38,7 @@ class Calls(unittest.TestCase):
             smaller.with_radius(-1)
 
     def test_a_run_finds_what_the_command_finds(self) -> None:
-        options = {"rays": 20000, "technique": "grid", "threads": 1, "seed": 3}
+        options: Dict[str, Any] = {"rays": 20000, "technique": "grid", "threads": 1, "seed": 3}
         found = detp.run("@cornell", standard_error=True, **options)
         answer = detp.ask("run", "@cornell", *(f"--{name}={value}" for name, value in options.items()))
         self.assertEqual(int(found.hits.sum()), answer["hits"])
@@ -50,9 +50,10 @@ class Calls(unittest.TestCase):
         assert found.standard_error is not None and found.upper_bound is not None
         self.assertTrue((found.upper_bound >= found.irradiance).all())
         self.assertIsNone(detp.run("@cornell", rays=1000).standard_error)
-        for wrong in ({"rays": "1k,2k"}, {"leaf": 8, "estimator": "gather"}, {"unknown": 1}):
+        wrong: List[Dict[str, Any]] = [{"rays": "1k,2k"}, {"leaf": 8, "estimator": "gather"}, {"unknown": 1}]
+        for one in wrong:
             with self.assertRaises(ValueError):
-                detp.run("@cornell", **wrong)
+                detp.run("@cornell", **one)
 
     def test_threads_search_one_plan_at_once(self) -> None:
         rays = detp.Rays(*some_rays(20000))
