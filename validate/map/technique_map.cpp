@@ -79,7 +79,8 @@ class MapMaker {
     map_.predicting_seconds = watch.seconds();
     const auto radius = [](const Made& one) { return one.row.workload.disc_radius; };
     std::ranges::stable_sort(made_, {}, radius);
-    made_.erase(std::ranges::unique(made_, {}, radius).begin(), made_.end());
+    const auto same = [&](const Made& one, const Made& other) { return radius(one) == radius(other); };
+    made_.erase(std::unique(made_.begin(), made_.end(), same), made_.end());
   }
 
   void predict_row(std::size_t number, std::size_t rows) {

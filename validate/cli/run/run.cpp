@@ -223,7 +223,8 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     AnswerRow row{inputs, json_of(validate::run_fields(), shown), {workload_cells(inputs)}};
     row.cells.front().update(cells_of(validate::run_fields(), shown));
     predicted = predicted || row.answer.contains("predicted_seconds");
-    if (common.in_memory) kept = std::make_shared<validate::JobAndRun>(std::move(*shared), std::move(found));
+    if (common.in_memory)
+      kept = std::make_shared<validate::JobAndRun>(validate::JobAndRun{std::move(*shared), std::move(found)});
     return row;
   };
   const std::vector<AnswerRow> answers = answer_all(problems, candidates, stop, prepare, answer);
