@@ -225,13 +225,13 @@ template <class Answer>
   return texts;
 }
 
-/// A row of a table, without what the answer has not.
+/// A row of a table, without what the answer has not. `json` of the same answer, if it is given: its values are taken, not found again.
 template <class Answer>
-[[nodiscard]] Json cells_of(const Fields<Answer>& fields, const Answer& answer) {
+[[nodiscard]] Json cells_of(const Fields<Answer>& fields, const Answer& answer, const Json& json = Json::object()) {
   Json cells = Json::object();
   for (const Field<Answer>& field : fields) {
     if (field.columns.empty()) continue;
-    const Json value = field.value(answer);
+    const Json value = field.in_json && json.contains(field.name) ? json[field.name] : field.value(answer);
     if (value.is_discarded()) continue;
     if (field.cells) {
       cells.update(field.cells(answer, value));

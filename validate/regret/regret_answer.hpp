@@ -102,7 +102,7 @@ struct RegretAnswer {
   void summarise_all();
 };
 
-/// `notice` is told before the work why a stored calibration is not used. Throws std::invalid_argument if there are no such workloads, and as
+/// Before the work, `notice` gets the reason why a stored calibration is not used. Throws std::invalid_argument if there are no such workloads, and as
 /// run_regret and costs_in_use do.
 [[nodiscard]] RegretAnswer answer(const RegretRequest& request, const std::stop_token& stop = {},
                                   const sim::ReportPhase& progress = {}, const Notice& notice = {});

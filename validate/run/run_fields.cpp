@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detp/model/optimum/best_ratio.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/ranked.hpp"
 #include "detp/validate/answer/parts.hpp"
@@ -75,17 +74,14 @@ auto of_pilot(Value value) {
 }
 template <class Value>
 auto of_spheres(Value value) {
-  return [value](const Run& run) {
-    const auto* cache = std::get_if<SphereCacheParameters>(&run.answer.candidate.parameters);
-    return cache != nullptr && run.answer.request.has_technique() ? Json(value(run, *cache)) : left_out();
-  };
+  return only_if(
+      [](const Run& run) { return run.stops.has_value(); },
+      [value](const Run& run) { return value(run, std::get<SphereCacheParameters>(run.answer.candidate.parameters)); });
 }
 template <class Value>
 auto of_prediction(Value value) {
-  return [value](const Run& run) {
-    const auto counts = prediction(run.job.workload(), run.answer);
-    return counts ? json_value(value(run, *counts)) : left_out();
-  };
+  return only_if([](const Run& run) { return run.predicted.has_value(); },
+                 [value](const Run& run) { return value(run, *run.predicted); });
 }
 template <class Value>
 auto of_gather(Value value) {
@@ -97,12 +93,6 @@ auto of_stopped(Value value) {
 }
 
 Json interval(double low, double high) { return {known(low), known(high)}; }
-
-model::SphereStops stops_of(const Run& run, const SphereCacheParameters& cache) {
-  const Technique technique = run.answer.candidate.technique;
-  const auto form = technique == Technique::sphere_cache ? Form::corrected : Form::published;
-  return model::sphere_stops(run.job.workload(), run.answer.request.costs[technique], form, {cache.ratio});
-}
 
 auto own_spheres_by(Form form) {
   return of_spheres([form](const Run& run, const SphereCacheParameters& cache) {
@@ -205,11 +195,19 @@ Json hits_estimate(const Run& run) {
   return all ? Json{{"value", all->value}, {"standard_error", json_value(all->standard_error)}} : Json();
 }
 
-std::optional<Whole> predicted_whole_of(const Run& run) {
-  return predicted_whole(run.job, run.answer, run.job.workload());
-}
-
 }  // namespace
+
+ShownRun shown_run(const Job& job, const RunAnswer& answer, std::optional<Whole> whole_measured) {
+  const Workload& workload = job.workload();
+  ShownRun run{job, answer, prediction(workload, answer), predicted_whole(job, answer, workload),
+               std::move(whole_measured)};
+  const auto* cache = std::get_if<SphereCacheParameters>(&answer.candidate.parameters);
+  if (cache == nullptr || !answer.request.has_technique()) return run;
+  const Technique technique = answer.candidate.technique;
+  const auto form = technique == Technique::sphere_cache ? Form::corrected : Form::published;
+  run.stops = model::sphere_stops(workload, answer.request.costs[technique], form, {cache->ratio});
+  return run;
+}
 
 const Fields<ShownRun>& run_fields() {
   static const Fields<Run> fields{
@@ -229,10 +227,8 @@ const Fields<ShownRun>& run_fields() {
           [](const Run& run) { return run.answer.request.has_technique() ? &run.answer.candidate : nullptr; }),
       {"k", "", "spheres of the sphere cache",
        of_spheres([](const Run&, const SphereCacheParameters& cache) { return cache.spheres; })},
-      {"k_max", "", "spheres that can hold a disc",
-       of_spheres([](const Run& run, const SphereCacheParameters& cache) { return stops_of(run, cache).max; })},
-      {"k_best", "", "spheres with the least predicted time",
-       of_spheres([](const Run& run, const SphereCacheParameters& cache) { return stops_of(run, cache).best; })},
+      {"k_max", "", "spheres that can hold a disc", of_part(&Run::stops, &model::SphereStops::max)},
+      {"k_best", "", "spheres with the least predicted time", of_part(&Run::stops, &model::SphereStops::best)},
       {"k_published", "", "k_max by the paper's form", own_spheres_by(Form::published)},
       {"k_corrected", "", "k_max by the corrected form", own_spheres_by(Form::corrected)},
       {"rays", "", "searched; of photon paths their pieces", rays_json},
@@ -294,19 +290,13 @@ const Fields<ShownRun>& run_fields() {
        [](const Run& run) { return run.job.trace_seconds + run.answer.run.trace_seconds; }},
       {"rays_in_memory", "", "at a time, at most", [](const Run& run) { return run.answer.run.rays_in_memory; }},
       Field<Run>("whole", "s", "predicted wait of the whole command, by part",
-                 [](const Run& run) {
-                   const auto whole = predicted_whole_of(run);
-                   return whole ? whole_json(whole->seconds) : Json();
-                 })
+                 [](const Run& run) { return run.whole ? whole_json(run.whole->seconds) : Json(); })
           .in({{"whole_seconds", "/total"}}),
       Field<Run>("whole_measured", "s", "the same, measured",
                  [](const Run& run) { return run.whole_measured ? whole_json(run.whole_measured->seconds) : Json(); })
           .in({{"whole_measured_seconds", "/total"}}),
       {"peak_bytes", "bytes", "predicted peak of the memory",
-       [](const Run& run) {
-         const auto whole = predicted_whole_of(run);
-         return whole ? whole->peak_bytes : std::nullopt;
-       }},
+       [](const Run& run) { return run.whole ? run.whole->peak_bytes : std::nullopt; }},
       {"peak_bytes_measured", "bytes", "the same, measured",
        [](const Run& run) { return run.whole_measured ? run.whole_measured->peak_bytes : std::nullopt; }},
       {"stopped", "", "before the end: the answer is partial", stopped},

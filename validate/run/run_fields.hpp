@@ -1,5 +1,6 @@
 #pragma once
 
+#include "detp/model/optimum/best_ratio.hpp"
 #include "detp/validate/base/fields.hpp"
 #include "run.hpp"
 
@@ -10,8 +11,14 @@ namespace detp::validate {
 struct ShownRun {
   const Job& job;
   const RunAnswer& answer;
-  std::optional<Whole> whole_measured = {};  ///< of a command that does nothing else
+  std::optional<Counts<double>> predicted = {};
+  std::optional<Whole> whole = {};               ///< predicted
+  std::optional<Whole> whole_measured = {};      ///< of a command that does nothing else
+  std::optional<model::SphereStops> stops = {};  ///< of a sphere cache, by the form of its technique
 };
+
+/// Measures the job, if it was not. Job and answer must stay.
+[[nodiscard]] ShownRun shown_run(const Job& job, const RunAnswer& answer, std::optional<Whole> whole_measured = {});
 
 /// Hits, counts and seconds, and the predictions of the candidate's closed form if it has one. A stopped run has no
 /// `hits` and no irradiance. It has `hits_so_far`, the hits of the finished rays or discs, and if random rays were

@@ -26,7 +26,7 @@ TEST_SUITE("one call") {
     request.technique = Technique::grid;
     request.parameters.values = {{"cells", std::int64_t{6}}};
     const JobAndRun found = answer(request);
-    const Json of_library = json_of(run_fields(), {found.job, found.answer});
+    const Json of_library = json_of(run_fields(), shown_run(found.job, found.answer));
     const Json of_command =
         support::result_of("run @cornell --rays 5000 --threads 1 --technique grid --cells 6 --calibration none");
     for (const char* key :

@@ -219,9 +219,10 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     if (expected == 1) text = to_text(job, found, measured, common.screen(), options.verbose);
     if (is_short) return AnswerRow{Json::object(), {{"stopped", found.run.outcome.stopped}}, {Json::object()}};
     add_inputs(inputs, request);
-    const validate::ShownRun shown{job, found, expected == 1 ? std::optional(measured) : std::nullopt};
+    const validate::ShownRun shown =
+        validate::shown_run(job, found, expected == 1 ? std::optional(measured) : std::nullopt);
     AnswerRow row{inputs, json_of(validate::run_fields(), shown), {workload_cells(inputs)}};
-    row.cells.front().update(cells_of(validate::run_fields(), shown));
+    row.cells.front().update(cells_of(validate::run_fields(), shown, row.answer));
     predicted = predicted || row.answer.contains("predicted_seconds");
     if (common.in_memory)
       kept = std::make_shared<validate::JobAndRun>(validate::JobAndRun{std::move(*shared), std::move(found)});
