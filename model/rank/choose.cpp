@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "extrapolation.hpp"
 #include "predict.hpp"
 
 namespace detp::model {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "registry.hpp"
+#include "detp/model/techniques/registry.hpp"
 
 namespace detp::model {
 

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "registry.hpp"
+#include "detp/model/techniques/registry.hpp"
 
 namespace detp::model {
 
@@ -16,6 +16,13 @@ Counts<double> predict(const Valid<Workload>& workload, const Valid<Candidate>& 
   counts.loaded = workload.rays;
   if (some_rays_end(workload)) counts.segments = workload.rays;
   return with_bytes_touched(counts, candidate, engine);
+}
+
+std::vector<std::string> extrapolations(const Valid<Workload>& workload, const Valid<Candidate>& candidate) {
+  Reasons reasons;
+  if (const auto uncounted = model_of(candidate.technique).uncounted)
+    uncounted(workload, candidate.parameters, reasons);
+  return std::move(reasons).texts();
 }
 
 }  // namespace detp::model

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "detp/model/vocabulary/vocabulary.hpp"
 
 namespace detp::model {
@@ -15,5 +18,13 @@ namespace detp::model {
 /// bsp, bvh, ray-map and photon-map, octrees with neighbour links, sphere caches along the Hilbert curve.
 [[nodiscard]] Counts<double> predict(const Valid<Workload>& workload, const Valid<Candidate>& candidate,
                                      Engine engine = Engine::simd);
+
+/// The reasons why the counts that `predict` returns for the candidate are extrapolated: a short text for each input
+/// outside the range that was compared with counts (detp/model/closed_form/reasons.hpp), such as "d over r0 1e-05 below 0.0001". Empty if the
+/// counts are not extrapolated.
+///
+/// Throws std::invalid_argument for an invalid workload or invalid parameters.
+[[nodiscard]] std::vector<std::string> extrapolations(const Valid<Workload>& workload,
+                                                      const Valid<Candidate>& candidate);
 
 }  // namespace detp::model

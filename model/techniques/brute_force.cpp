@@ -1,5 +1,5 @@
+#include "detp/model/closed_form/closed_form.hpp"
 #include "detp/model/lines/line_measure.hpp"
-#include "detp/model/rank/closed_form.hpp"
 
 namespace detp::model {
 namespace {

@@ -1,9 +1,9 @@
 #include <algorithm>
 
+#include "detp/model/closed_form/closed_form.hpp"
+#include "detp/model/closed_form/fastest.hpp"
+#include "detp/model/closed_form/reasons.hpp"
 #include "detp/model/hierarchy/cell_spheres.hpp"
-#include "detp/model/rank/closed_form.hpp"
-#include "detp/model/rank/extrapolation.hpp"
-#include "detp/model/rank/fastest.hpp"
 
 namespace detp::model {
 namespace {

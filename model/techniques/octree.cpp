@@ -1,7 +1,7 @@
+#include "detp/model/closed_form/closed_form.hpp"
+#include "detp/model/closed_form/fastest.hpp"
+#include "detp/model/closed_form/reasons.hpp"
 #include "detp/model/disc_index/disc_index.hpp"
-#include "detp/model/rank/closed_form.hpp"
-#include "detp/model/rank/extrapolation.hpp"
-#include "detp/model/rank/fastest.hpp"
 
 namespace detp::model {
 namespace {

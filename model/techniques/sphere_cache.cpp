@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "detp/model/closed_form/closed_form.hpp"
+#include "detp/model/closed_form/reasons.hpp"
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/optimum/best_ratio.hpp"
-#include "detp/model/rank/closed_form.hpp"
-#include "detp/model/rank/extrapolation.hpp"
 #include "detp/model/sphere_cache/rebuild_law.hpp"
 #include "detp/model/sphere_cache/sphere_cache.hpp"
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <span>
 
+#include "detp/model/closed_form/closed_form.hpp"
+#include "detp/model/closed_form/fastest.hpp"
+#include "detp/model/closed_form/reasons.hpp"
 #include "detp/model/hierarchy/sphere_tree.hpp"
-#include "detp/model/rank/closed_form.hpp"
-#include "detp/model/rank/extrapolation.hpp"
-#include "detp/model/rank/fastest.hpp"
 
 namespace detp::model {
 namespace {

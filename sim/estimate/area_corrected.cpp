@@ -12,10 +12,10 @@
 #include "detp/sim/geometry/closest_point.hpp"
 #include "detp/sim/geometry/predicates.hpp"
 #include "detp/sim/geometry/triangle_in_sphere.hpp"
+#include "detp/sim/near/landing_tree.hpp"
+#include "detp/sim/near/near_sums.hpp"
 #include "detp/sim/scene/near_triangles.hpp"
 #include "detp/sim/search/run_memory.hpp"
-#include "landing_tree.hpp"
-#include "near_sums.hpp"
 #include "surface.hpp"
 
 namespace detp::sim {

@@ -7,11 +7,11 @@
 #include <stdexcept>
 
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/near/each_disc.hpp"
 #include "detp/sim/photons/lights.hpp"
 #include "detp/sim/reference/backward_paths.hpp"
 #include "detp/sim/search/irradiance.hpp"
 #include "detp/sim/search/run_memory.hpp"
-#include "each_disc.hpp"
 
 namespace detp::sim {
 namespace {

@@ -9,9 +9,9 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/geometry/closest_point.hpp"
 #include "detp/sim/geometry/predicates.hpp"
+#include "detp/sim/near/near_sums.hpp"
 #include "detp/sim/scene/near_triangles.hpp"
 #include "detp/sim/search/run_memory.hpp"
-#include "near_sums.hpp"
 #include "surface.hpp"
 
 namespace detp::sim {

@@ -37,8 +37,8 @@ add(sim/technique/registry.cpp "}};\n\n}  // namespace" "    {Technique::each_pa
 
 # 5 and 6. The closed form, if there is one, and its line.
 configure_file(${here}/closed_form.cpp ${copy}/model/techniques/each_pair.cpp COPYONLY)
-add(model/rank/registry.cpp ";\n\nnamespace {" ", model_each_pair")
-add(model/rank/registry.cpp "};\n\n}  // namespace" "    {Technique::each_pair, model_each_pair},\n")
+add(model/techniques/registry.cpp ";\n\nnamespace {" ", model_each_pair")
+add(model/techniques/registry.cpp "};\n\n}  // namespace" "    {Technique::each_pair, model_each_pair},\n")
 
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)

@@ -1,6 +1,6 @@
-#include "detp/model/rank/closed_form.hpp"
+#include "detp/model/closed_form/closed_form.hpp"
+#include "detp/model/closed_form/reasons.hpp"
 #include "detp/model/lines/line_measure.hpp"
-#include "detp/model/rank/extrapolation.hpp"
 
 namespace detp::model {
 namespace {

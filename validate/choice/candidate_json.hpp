@@ -2,7 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "detp/model/rank/registry.hpp"
+#include "detp/model/techniques/registry.hpp"
 
 /// Candidates in JSON. The functions are found by their arguments.
 namespace detp {

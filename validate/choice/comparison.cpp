@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "detp/model/rank/extrapolation.hpp"
+#include "detp/model/closed_form/reasons.hpp"
 
 namespace detp::validate {
 namespace {

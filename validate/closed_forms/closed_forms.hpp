@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "detp/model/rank/registry.hpp"
+#include "detp/model/techniques/registry.hpp"
 #include "detp/validate/base/fields.hpp"
 
 /// What the closed forms say of one technique: `detp model`. Times are in the unit of the costs: if each costs 1, they are counts.

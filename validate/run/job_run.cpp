@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "detp/model/rank/predict.hpp"
-#include "detp/model/rank/registry.hpp"
+#include "detp/model/techniques/registry.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/ranks/failures.hpp"

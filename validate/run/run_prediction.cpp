@@ -7,8 +7,8 @@
 #include "detp/model/disc_index/disc_index_published.hpp"
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/rank/predict.hpp"
-#include "detp/model/rank/registry.hpp"
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
+#include "detp/model/techniques/registry.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/validate/whole/accuracy_costs.hpp"
 

@@ -3,7 +3,7 @@
 #include <deque>
 #include <nlohmann/json.hpp>
 
-#include "detp/model/rank/registry.hpp"
+#include "detp/model/techniques/registry.hpp"
 #include "detp/sim/ranks/farm.hpp"
 #include "execute_until.hpp"
 #include "job_batches.hpp"

@@ -1,4 +1,4 @@
-#include "detp/model/rank/extrapolation.hpp"
+#include "detp/model/rank/predict.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "detp/model/disc_index/disc_index.hpp"
-#include "detp/model/rank/registry.hpp"
+#include "detp/model/techniques/registry.hpp"
 #include "support/random_workload.hpp"
 
 using namespace detp;

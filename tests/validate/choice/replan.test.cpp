@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "detp/model/rank/choose.hpp"
-#include "detp/model/rank/registry.hpp"
+#include "detp/model/techniques/registry.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "detp/model/rank/extrapolation.hpp"
+#include "detp/model/closed_form/reasons.hpp"
 #include "detp/validate/cli/report/prediction_report.hpp"
 #include "detp/validate/cli/text/table.hpp"
 #include "detp/validate/cli/text/words.hpp"

@@ -11,7 +11,7 @@
 #include "detp/validate/answer/parts.hpp"
 #include "detp/validate/cli/text/result.hpp"
 
-/// Marks of extrapolated predictions (detp/model/rank/extrapolation.hpp), and the whole wait and memory of a command.
+/// Marks of extrapolated predictions (detp/model/rank/predict.hpp), and the whole wait and memory of a command.
 namespace detp::cli {
 
 using validate::extrapolated_json;

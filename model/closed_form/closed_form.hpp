@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "detp/model/vocabulary/ray_blocks.hpp"
-#include "registry.hpp"
+#include "technique_model.hpp"
 
 /// What the files in model/techniques share: a formula that takes a technique's own parameters becomes a prediction.
 namespace detp::model {

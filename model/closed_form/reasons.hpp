@@ -45,12 +45,4 @@ void range_of_samples(const Valid<Workload>& workload, Reasons& reasons);
 /// faces. Its numbers may be out of range.
 [[nodiscard]] bool is_counted_scene(const Valid<Workload>& workload);
 
-/// The reasons why the counts that `predict` returns for the candidate are extrapolated: a short text for each input
-/// outside the range that was compared with counts (see above), such as "d over r0 1e-05 below 0.0001". Empty if the
-/// counts are not extrapolated.
-///
-/// Throws std::invalid_argument for an invalid workload or invalid parameters.
-[[nodiscard]] std::vector<std::string> extrapolations(const Valid<Workload>& workload,
-                                                      const Valid<Candidate>& candidate);
-
 }  // namespace detp::model

@@ -1,4 +1,4 @@
-#include "detp/model/rank/registry.hpp"
+#include "detp/model/techniques/registry.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 
 namespace detp::model {
 
-// Each is defined in the file of its technique in model/techniques.
+// Each is defined in the file of its technique.
 DescribeTechnique model_brute_force, model_sphere_cache, model_sphere_cache_published, model_cell_spheres,
     model_sphere_tree, model_box_tree, model_octree, model_grid;
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
-#include "extrapolation.hpp"
+#include "reasons.hpp"
 
-/// The model of each technique: its prediction, its best parameters, and the range in which it was checked.
+/// The model of a technique: its prediction, its best parameters, and the range in which it was checked.
 namespace detp::model {
 
 /// Limits on the parameters searched, and on the search.
@@ -60,14 +60,5 @@ struct TechniqueModel {
   /// Adds reasons why the prediction is outside the range in which it was compared with counts.
   void (*uncounted)(const Valid<Workload>&, const Parameters&, Reasons&) = nullptr;
 };
-
-/// A function in the technique's file in model/techniques.
-using DescribeTechnique = TechniqueModel();
-
-/// The technique's model; without functions if the technique has no closed forms.
-[[nodiscard]] const TechniqueModel& model_of(Technique technique);
-
-/// Whether closed forms predict the technique's counts, so that it can be chosen without a run.
-[[nodiscard]] inline bool has_closed_form(Technique technique) { return model_of(technique).predict != nullptr; }
 
 }  // namespace detp::model

@@ -1,12 +1,10 @@
-#include "extrapolation.hpp"
+#include "reasons.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-
-#include "registry.hpp"
 
 namespace detp::model {
 namespace {
@@ -57,13 +55,6 @@ bool is_counted_scene(const Valid<Workload>& workload) {
   Reasons reasons;
   uncounted_scene(workload, reasons);
   return std::move(reasons).texts().empty();
-}
-
-std::vector<std::string> extrapolations(const Valid<Workload>& workload, const Valid<Candidate>& candidate) {
-  Reasons reasons;
-  if (const auto uncounted = model_of(candidate.technique).uncounted)
-    uncounted(workload, candidate.parameters, reasons);
-  return std::move(reasons).texts();
 }
 
 }  // namespace detp::model

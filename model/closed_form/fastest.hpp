@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "registry.hpp"
+#include "technique_model.hpp"
 
 namespace detp::model {
 

@@ -9,12 +9,12 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/geometry/predicates.hpp"
+#include "detp/sim/near/landing_tree.hpp"
+#include "detp/sim/near/near_sums.hpp"
 #include "detp/sim/search/irradiance.hpp"
 #include "detp/sim/search/run_memory.hpp"
 #include "detp/sim/search/sort_pairs.hpp"
-#include "detp/sim/technique/registry.hpp"
-#include "landing_tree.hpp"
-#include "near_sums.hpp"
+#include "registry.hpp"
 
 namespace detp::sim {
 namespace {
