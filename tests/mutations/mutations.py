@@ -116,14 +116,21 @@ def copy_with_mutations(source: Path, copy: Path) -> None:
         files[0].write_text(files[0].read_text().replace(text, re.sub(r"\bM\b", f"mutated({number})", replacement)))
 
 
-def failing_test(build: Path, number: int) -> str:
-    """The first test that fails with the mutation on; empty if all pass."""
-    for label in ("quick", "long|statistical"):
-        run = subprocess.run(["ctest", "--test-dir", build, "-j", str(os.cpu_count()), "-L", label, "--stop-on-failure", "--timeout", "600"],
+slow = "long,statistical,hard-cases,scenes,memory,kills,figures"
+
+
+def failing_test(build: Path, number: int, part: str) -> str:
+    """The first test case that fails with the mutation on; empty if all pass. The tests of the part come first, slow ones last."""
+    parts = sorted(("model", "sim", "validate"), key=lambda one: one != part)
+    stages = [(one, [f"--test-suite-exclude={slow}", "--source-file-exclude=*validate/cli/*"]) for one in parts]
+    stages += [("validate", [f"--test-suite-exclude={slow}", "--source-file=*validate/cli/*"])]
+    stages += [(one, ["--test-suite=long,statistical"]) for one in parts]
+    for one, options in stages:
+        run = subprocess.run([build / "tests" / f"test_{one}", "--abort-after=1", *options], cwd=build / "tests", timeout=1800,
                              env={**os.environ, "DETP_MUTATION": str(number)}, capture_output=True, text=True)
-        failed = re.search(r"(?:Test +#\d+: |^\s*\d+ - )(\S+).*(?:\*\*\*|Failed|Timeout)", run.stdout, re.M)
-        if run.returncode != 0:
-            return failed[1] if failed else "ctest"
+        if run.returncode != 0:  # also if it ends by a signal
+            case = re.search(r"^TEST CASE: +(.*)", run.stdout, re.M)
+            return f"{one}: {case[1] if case else run.returncode}"
     return ""
 
 
@@ -133,13 +140,14 @@ def main(source: Path, work: Path) -> int:
         copy_with_mutations(source, copy)
         subprocess.run(["cmake", "--preset", "release", f"-DCMAKE_CXX_FLAGS=-include {copy}/mutated.hpp", "-DDETP_MPI=OFF"], cwd=copy, check=True)
         subprocess.run(["cmake", "--build", build], check=True)
-        if failed := failing_test(build, -1):
+        if failed := failing_test(build, -1, "model"):
             sys.exit(f"without a mutation, {failed} fails")
     done = dict(line.split("\t", 1) for line in caught_file.read_text().splitlines()) if caught_file.exists() else {}
     with caught_file.open("a") as out:
         for number, (folder, text, _) in enumerate(mutations):
             if str(number) not in done:
-                done[str(number)] = f"{failing_test(build, number)}\t{folder}\t{text}"
+                failed = failing_test(build, number, folder.split("/")[0])
+                done[str(number)] = f"{failed}\t{folder}\t{text}"
                 print(number, done[str(number)], sep="\t", file=out, flush=True)
     survived = [line for line in done.values() if line.startswith("\t")]
     print(f"{len(done) - len(survived)} of {len(done)} mutations are caught; these survive:", *survived, sep="\n")
