@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "detp/model/vocabulary/index_variant.hpp"
+#include "detp/model/vocabulary/parameters.hpp"
 
 /// The number of cubic cells that an isotropic disc overlaps.
 ///

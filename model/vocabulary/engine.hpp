@@ -48,4 +48,22 @@ inline constexpr std::size_t rays_to_divide = std::size_t{1} << 12;
   return std::ceil(rays / static_cast<double>(rays_in_block(static_cast<std::size_t>(std::min(discs, many)))));
 }
 
+/// The version of a formula.
+enum class Form {
+  published,  ///< as the paper printed it
+  corrected   ///< as corrected by derivation and simulation
+};
+template <>
+inline constexpr std::array<std::string_view, 2> choice_names<Form>{"published", "corrected"};
+
+/// What a choice is based on.
+enum class Rigor {
+  estimate,    ///< closed forms alone
+  structural,  ///< rays of the same kind, but not those of the run, through parts of the index
+  pilot,       ///< some of the rays, through parts of the index
+  measure      ///< runs of the candidates
+};
+template <>
+inline constexpr std::array<std::string_view, 4> choice_names<Rigor>{"estimate", "structural", "pilot", "measure"};
+
 }  // namespace detp

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -23,5 +24,14 @@ inline constexpr std::size_t longest_quote = 60;
 /// A file's path, escaped. If it has more than 200 characters, "..." replaces some after the first 60,
 /// so that about 200 remain.
 [[nodiscard]] std::string shown_path(std::string_view path);
+
+/// The edit distance of two words: the smallest number of changes that turn a into b. A change inserts, deletes or
+/// replaces a letter, or swaps two neighbouring letters. Each letter is changed at most once.
+[[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// For a message about an unknown name: "; did you mean octree?". Empty if the nearest name's edit distance from the
+/// word is more than 3, or more than a third of the word's length (rounded up), or if the word has more than 40
+/// letters.
+[[nodiscard]] std::string did_you_mean(std::string_view word, std::span<const std::string_view> names);
 
 }  // namespace detp

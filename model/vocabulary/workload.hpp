@@ -86,4 +86,21 @@ void check(const Workload& workload);
 [[nodiscard]] Workload cube_workload(double rays, double samples, double disc_radius, double side,
                                      double dimension = 3);
 
+// Strong types for numbers that are easily confused. All lengths are in scene units.
+
+/// d: radius of the disc around an irradiance sample, length > 0.
+struct DiscRadius {
+  double value;
+};
+
+/// r₀: radius of the outermost sphere S₀, which contains every disc completely, length > 0.
+struct SphereRadius {
+  double value;
+};
+
+/// Q: radius of a sphere of the cache divided by the radius of the next larger one, in (0, 1).
+struct RadiusRatio {
+  double value;
+};
+
 }  // namespace detp

@@ -63,28 +63,20 @@ Outcome by_estimator(const Problem& problem, const EstimateRequest& request, con
     case Estimator::nearest:
       return run(problem, Candidate{Technique::photon_map, PhotonMapParameters{request.nearest, request.nearest_form}},
                  options);
-    case Estimator::area_corrected:
-    case Estimator::triangle_hits:
-    case Estimator::gather:
-      break;
+    default:
+      refuse_options(options, name(request.estimator));
+      return record_of(request.estimator).needs_scene ? by_paths(problem, request, options)
+                                                      : by_surfaces(problem, request, options);
   }
-  refuse_options(options, name(request.estimator));
-  return request.estimator == Estimator::gather ? by_paths(problem, request, options)
-                                                : by_surfaces(problem, request, options);
 }
 
 }  // namespace
 
 std::unique_ptr<Index> prepare_surfaces(Estimator estimator, const Mesh& mesh, const std::stop_token& stop,
                                         std::shared_ptr<const NearTriangles> triangles) {
-  switch (estimator) {
-    case Estimator::area_corrected:
-      return prepare_area_corrected(mesh, stop, std::move(triangles));
-    case Estimator::triangle_hits:
-      return prepare_triangle_hits(mesh, stop, std::move(triangles));
-    default:
-      throw std::invalid_argument(fmt::format("{} does not look at surfaces", name(estimator)));
-  }
+  PrepareSurfaces* const prepare = record_of(estimator).prepare;
+  if (prepare == nullptr) throw std::invalid_argument(fmt::format("{} does not look at surfaces", name(estimator)));
+  return prepare(mesh, stop, std::move(triangles));
 }
 
 Outcome estimate(const Problem& problem, const EstimateRequest& request, const RunOptions& options) {
@@ -95,7 +87,7 @@ Outcome estimate(const Problem& problem, const EstimateRequest& request, const R
   } catch (const Stopped&) {  // stopped before the search
     outcome = unsearched_outcome(problem, options);
   }
-  if (request.estimator == Estimator::gather && outcome.progress.of == 0)
+  if (record_of(request.estimator).needs_scene && outcome.progress.of == 0)
     outcome.progress = {0, problem.discs().size(), "discs"};
   return outcome;
 }

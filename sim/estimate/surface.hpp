@@ -39,7 +39,7 @@ namespace detp::sim {
 [[nodiscard]] std::unique_ptr<Index> prepare_triangle_hits(const Mesh& mesh, const std::stop_token& stop,
                                                            std::shared_ptr<const NearTriangles> triangles = {});
 
-/// One of the two. Throws std::invalid_argument for an estimator without needs_mesh.
+/// By the estimator's record. Throws std::invalid_argument for one that does not look at surfaces.
 [[nodiscard]] std::unique_ptr<Index> prepare_surfaces(Estimator estimator, const Mesh& mesh,
                                                       const std::stop_token& stop,
                                                       std::shared_ptr<const NearTriangles> triangles = {});

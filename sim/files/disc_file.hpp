@@ -1,13 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "detp/sim/geometry/disc_source.hpp"
 #include "detp/sim/geometry/geometry.hpp"
+#include "table.hpp"
+#include "table_file.hpp"
 
 namespace detp::sim {
 
@@ -25,5 +30,31 @@ namespace detp::sim {
 /// FileError if the file cannot be written, and Stopped.
 void write_discs(const std::string& path, const std::vector<Disc>& discs, const std::stop_token& stop = {},
                  std::span<const std::uint32_t> vertices = {});
+
+// A disc as a row of a table.
+
+/// Of a file of discs. `default_radius` is used if the column radius is missing, or a field of it is empty.
+[[nodiscard]] std::vector<TableColumn> disc_columns(std::optional<double> default_radius);
+
+/// Throws FileError with the row's place for a number that is not finite, a zero normal, and a radius <= 0. Normalises the normal.
+[[nodiscard]] Disc disc_in(const TableRow& row);
+
+/// The discs of a file, read block by block; nothing is kept in memory. A read throws FileError as read_discs does.
+class StoredDiscs final : public DiscSource {
+ public:
+  /// Null if the rows of the file cannot be read in any order (TableFile::open). Reads the header alone. Throws FileError as read_discs does
+  /// for a header.
+  [[nodiscard]] static std::unique_ptr<const StoredDiscs> open(const std::string& path,
+                                                               std::optional<double> default_radius);
+
+  [[nodiscard]] std::uint64_t size() const override { return file_.rows(); }
+  /// Uses oneTBB's threads.
+  void read(std::uint64_t first, std::span<Disc> block, const std::stop_token& stop = {}) const override;
+
+ private:
+  explicit StoredDiscs(TableFile file) : file_(std::move(file)) {}
+
+  TableFile file_;
+};
 
 }  // namespace detp::sim

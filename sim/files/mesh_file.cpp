@@ -11,8 +11,10 @@
 #include "file_error.hpp"
 #include "input_file.hpp"
 #include "obj_file.hpp"
+#include "output_file.hpp"
 #include "ply.hpp"
 #include "polygon.hpp"
+#include "writing_check.hpp"
 
 namespace detp::sim {
 namespace {
@@ -163,20 +165,72 @@ void note_geometry(const Mesh& mesh, Notices& notices) {
   note(mesh.normals_made, "corners whose normal is missing, zero or not finite, with that of the faces around");
 }
 
+Mesh read_ply_mesh(const std::string& path, Notices&, std::stop_token stop) {
+  Mesh mesh = PlyMeshReader(path, std::move(stop)).read();
+  reset_normals(mesh);
+  return mesh;
+}
+
+/// What a name's ending says about the file. A new format is a line here, and a file with what reads it.
+struct MeshFormat {
+  std::string_view suffix;
+  Mesh (*read)(const std::string& path, Notices& notices, std::stop_token stop);
+};
+constexpr std::array formats{MeshFormat{".obj", read_obj}, MeshFormat{".ply", read_ply_mesh}};
+
 }  // namespace
 
+std::string mesh_suffixes() {
+  std::string all;
+  for (const MeshFormat& one : formats)
+    all += fmt::format("{}{}", all.empty() ? "" : &one == &formats.back() ? " or " : ", ", one.suffix);
+  return all;
+}
+
 Mesh read_mesh(const std::string& path, Notices& notices, std::stop_token stop) {
-  const bool is_ply = has_ending(path, ".ply");
-  if (!is_ply && !has_ending(path, ".obj"))
-    throw FileError(path, "is not a mesh file: its name must end in .obj or .ply");
-  Mesh mesh = is_ply ? PlyMeshReader(path, std::move(stop)).read() : read_obj(path, notices, std::move(stop));
+  const auto* format = std::ranges::find_if(formats, [&](const auto& one) { return has_ending(path, one.suffix); });
+  if (format == formats.end())
+    throw FileError(path, fmt::format("is not a mesh file: its name must end in {}", mesh_suffixes()));
+  Mesh mesh = format->read(path, notices, std::move(stop));
   if (mesh.triangles.empty()) throw FileError(path, "has no faces; a mesh needs at least one");
   check_used(mesh, mesh.positions, path, "position");
   if (const std::size_t count = reset_not_finite(mesh.positions))
     notices.push_back("unused positions that are not finite, set to 0: " + std::to_string(count));
-  if (is_ply) reset_normals(mesh);
   note_geometry(mesh, notices);
   return mesh;
+}
+
+namespace {
+
+void write_vector(OutputFile& file, const glm::dvec3& vector) {
+  for (int axis = 0; axis < 3; ++axis) write_little_endian(file, vector[axis]);
+}
+
+void write_header(OutputFile& file, const Mesh& mesh) {
+  file.write(fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.positions.size()));
+  file.write("property double x\nproperty double y\nproperty double z\n");
+  if (!mesh.normals.empty()) file.write("property double nx\nproperty double ny\nproperty double nz\n");
+  file.write(
+      fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.triangles.size()));
+}
+
+}  // namespace
+
+void write_ply(const std::string& path, const Mesh& mesh, const std::stop_token& stop) {
+  WritingCheck check(path, mesh.positions.size() + mesh.triangles.size(), "vertices and triangles", stop);
+  OutputFile file(path, stop);
+  write_header(file, mesh);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    check.next();
+    write_vector(file, mesh.positions[i]);
+    if (!mesh.normals.empty()) write_vector(file, mesh.normals[i]);
+  }
+  for (const auto& triangle : mesh.triangles) {
+    check.next();
+    write_little_endian(file, std::uint8_t{3});
+    for (const std::uint32_t corner : triangle) write_little_endian(file, static_cast<std::int32_t>(corner));
+  }
+  file.commit();
 }
 
 }  // namespace detp::sim

@@ -7,7 +7,10 @@
 
 namespace detp::sim {
 
-/// Reads a triangle mesh. The ending of the file's name, .obj or .ply in upper or lower case, decides the format.
+/// The endings of the names of mesh files, as in ".obj or .ply".
+[[nodiscard]] std::string mesh_suffixes();
+
+/// Reads a triangle mesh. The ending of the file's name, in upper or lower case, decides the format.
 ///
 /// Polygons are divided as Triangulator does. Triangles without area are kept. A position with several normals becomes a vertex for
 /// each of them (Mesh::file_vertices). Positions that are not finite are set to 0 if no face uses them; normals that are not, or are
@@ -17,5 +20,9 @@ namespace detp::sim {
 /// names with other endings, and if a face uses a position that is not finite. Throws std::length_error if
 /// the mesh would not fit in memory, and Stopped within 0.1 s of a stop request.
 [[nodiscard]] Mesh read_mesh(const std::string& path, Notices& notices, std::stop_token stop = {});
+
+/// Writes a mesh as binary little-endian PLY. Positions (and normals, if it has any) are doubles, so read_mesh returns
+/// the same mesh. Throws FileError if the file cannot be written, and Stopped.
+void write_ply(const std::string& path, const Mesh& mesh, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

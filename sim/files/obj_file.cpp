@@ -16,7 +16,7 @@
 
 #include "detp/sim/base/kept_memory.hpp"
 #include "detp/sim/base/stop_check.hpp"
-#include "detp/sim/geometry/unit_vector.hpp"
+#include "detp/sim/geometry/directions.hpp"
 #include "file_error.hpp"
 #include "mtl_file.hpp"
 #include "number_text.hpp"

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "detp/sim/geometry/geometry.hpp"
 #include "detp/sim/geometry/paths.hpp"
+#include "table.hpp"
 
 namespace detp::sim {
 
@@ -30,5 +32,19 @@ struct RayFile {
 /// Writes rays with the columns ox,oy,oz,dx,dy,dz,length,power, and photon and landing if the paths have them, as CSV or PLY:
 /// table_writer.hpp. The same doubles are read back. Throws FileError if the file cannot be written, and Stopped.
 void write_rays(const std::string& path, const PathRays& paths, const std::stop_token& stop = {});
+
+// A ray as a row of a table.
+
+namespace ray_column {
+enum Column : std::size_t { ox, oy, oz, dx, dy, dz, length, power, photon, landing };
+}
+
+/// Of a file of rays.
+[[nodiscard]] const std::vector<TableColumn>& ray_columns();
+
+/// Throw FileError with the row's place.
+[[nodiscard]] Ray ray_in(const TableRow& row);
+[[nodiscard]] std::uint64_t photon_in(const TableRow& row);
+[[nodiscard]] double landing_in(const TableRow& row, const Ray& ray);
 
 }  // namespace detp::sim

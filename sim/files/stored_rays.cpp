@@ -8,7 +8,7 @@
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/sim/ranks/parts.hpp"
 #include "file_error.hpp"
-#include "ray_row.hpp"
+#include "ray_file.hpp"
 
 namespace detp::sim {
 namespace {

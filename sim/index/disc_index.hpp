@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "detp/model/vocabulary/index_variant.hpp"
+#include "detp/model/vocabulary/parameters.hpp"
 #include "detp/sim/search/index.hpp"
 
 /// The indices of discs behind the techniques octree, grid and bsp: their variants, and access to the built index.

@@ -3,7 +3,7 @@
 #include "detp/sim/search/run_memory.hpp"
 #include "indexed_search.hpp"
 #include "octree_descent.hpp"
-#include "octree_links.hpp"
+#include "octree_nodes.hpp"
 #include "octree_walk.hpp"
 
 namespace detp::sim {

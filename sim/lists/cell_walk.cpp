@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "detp/sim/geometry/lebesgue.hpp"
+#include "detp/sim/geometry/curve.hpp"
 
 namespace detp::sim {
 namespace {

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <stdexcept>
 
-#include "detp/model/vocabulary/nearest_name.hpp"
+#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/mesh_file.hpp"
@@ -21,27 +21,9 @@ namespace {
 
 constexpr std::size_t default_uniform_samples = 100'000;
 
-struct BuiltIn {
-  std::string name;
-  built_in::LitMesh (*make)();  ///< null for samples without a mesh
-};
-
-const std::vector<BuiltIn>& built_ins() {
-  static const std::vector<BuiltIn> all{{"@uniform", nullptr},
-                                        {"@tree", built_in::tree},
-                                        {"@tree-coarse", built_in::tree_coarse},
-                                        {"@courtyard", built_in::courtyard},
-                                        {"@cornell", built_in::cornell},
-                                        {"@caustic", built_in::caustic},
-                                        {"@interior", built_in::interior},
-                                        {"@furnace", built_in::furnace},
-                                        {"@sunlit", built_in::sunlit}};
-  return all;
-}
-
 /// The scene "@room:7" of a family; nothing if no family has the name.
 std::optional<built_in::LitMesh> scene_of_family(const std::string& name) {
-  for (const families::Family& family : families::all_families()) {
+  for (const families::Family& family : families::all_families) {
     const std::string prefix = fmt::format("@{}:", family.name);
     if (!name.starts_with(prefix)) continue;
     const std::string_view digits = std::string_view(name).substr(prefix.size());
@@ -55,17 +37,14 @@ std::optional<built_in::LitMesh> scene_of_family(const std::string& name) {
   return std::nullopt;
 }
 
-const BuiltIn& built_in_named(const std::string& name) {
-  std::string known;
+const built_in::BuiltIn& built_in_named(const std::string& name) {
   std::vector<std::string_view> names;
-  for (const BuiltIn& scene : built_ins()) {
+  for (const built_in::BuiltIn& scene : built_in::built_ins) {
     if (scene.name == name) return scene;
-    known += (known.empty() ? "" : ", ") + scene.name;
-    names.emplace_back(scene.name);
+    names.push_back(scene.name);
   }
-  for (const families::Family& family : families::all_families()) known += fmt::format(", @{}:SEED", family.name);
-  throw std::invalid_argument("there is no built-in scene " + shortened(name) + "; known scenes are " + known +
-                              did_you_mean(name, names));
+  throw std::invalid_argument("there is no built-in scene " + shortened(name) + "; known scenes are " +
+                              built_in_scenes() + did_you_mean(name, names));
 }
 
 Box box_of(const Scene& scene) {
@@ -113,7 +92,7 @@ Scene uniform_scene(const SceneRequest& request, const std::stop_token& stop) {
 Scene built_in_scene(const SceneRequest& request, const std::stop_token& stop) {
   std::optional<built_in::LitMesh> made = scene_of_family(request.name);
   if (!made) {
-    const BuiltIn& known = built_in_named(request.name);
+    const built_in::BuiltIn& known = built_in_named(request.name);
     if (known.make == nullptr) return uniform_scene(request, stop);
     made = known.make();
   }
@@ -145,6 +124,14 @@ Scene mesh_scene(const SceneRequest& request, const std::stop_token& stop) {
 }
 
 }  // namespace
+
+std::string built_in_scenes() {
+  std::string known;
+  for (const built_in::BuiltIn& scene : built_in::built_ins)
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", scene.name);
+  for (const families::Family& family : families::all_families) known += fmt::format(", @{}:SEED", family.name);
+  return known;
+}
 
 Scene open_scene(const SceneRequest& request, const std::stop_token& stop) {
   const DefaultFloatingPoint mode;

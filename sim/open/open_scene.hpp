@@ -19,6 +19,9 @@ struct SceneRequest {
   std::optional<Up> up = {};           ///< none: Y in built-in scenes, found by up_of in files
 };
 
+/// The names of the built-in scenes, as in "@uniform, @tree, @room:SEED".
+[[nodiscard]] std::string built_in_scenes();
+
 /// Opens a built-in scene or a mesh file.
 ///
 /// If `samples` is less than the number of vertices, keeps a random subset of the samples at vertices, in vertex order.

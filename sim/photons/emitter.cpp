@@ -11,7 +11,6 @@
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/turn.hpp"
-#include "detp/sim/geometry/unit_vector.hpp"
 
 namespace detp::sim {
 namespace {

@@ -11,7 +11,7 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/sim/ranks/parts.hpp"
-#include "photon_shares.hpp"
+#include "photon_paths.hpp"
 
 namespace detp::sim {
 namespace {

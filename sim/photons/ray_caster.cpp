@@ -6,7 +6,7 @@
 #include "detp/sim/base/embree.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
-#include "detp/sim/scene/distinct_facets.hpp"
+#include "detp/sim/scene/facet.hpp"
 
 namespace detp::sim {
 namespace {

@@ -12,7 +12,6 @@
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/geometry/turn.hpp"
-#include "detp/sim/geometry/unit_vector.hpp"
 
 namespace detp::sim {
 namespace {

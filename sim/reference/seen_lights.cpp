@@ -6,7 +6,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "detp/sim/geometry/unit_vector.hpp"
+#include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/photons/emitter.hpp"
 
 namespace detp::sim {

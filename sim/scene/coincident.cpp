@@ -8,8 +8,8 @@
 #include "box_pairs.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
-#include "division.hpp"
-#include "plates.hpp"
+#include "clip.hpp"
+#include "plate.hpp"
 
 namespace detp::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <stop_token>
 
 #include "detp/sim/base/function_ref.hpp"
-#include "distinct_facets.hpp"
+#include "facet.hpp"
 #include "mesh.hpp"
 
 namespace detp::sim {

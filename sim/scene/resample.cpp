@@ -4,7 +4,7 @@
 
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/random.hpp"
-#include "detp/sim/geometry/unit_vector.hpp"
+#include "detp/sim/geometry/directions.hpp"
 
 namespace detp::sim {
 namespace {

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <utility>
 
-#include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/parallel.hpp"

@@ -9,8 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "detp/sim/geometry/unit_vector.hpp"
-#include "scaling.hpp"
+#include "detp/sim/geometry/directions.hpp"
 
 namespace detp::sim {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "detp/sim/geometry/dominant_axis.hpp"
+#include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/predicates.hpp"
 #include "irradiance.hpp"
 #include "problem.hpp"

@@ -1,10 +1,15 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+
+#include "detp/model/vocabulary/engine.hpp"
 
 namespace detp::sim {
 
@@ -56,6 +61,23 @@ struct PhotonSums {
   void add_photons(std::uint64_t count) {
     photons = static_cast<std::uint32_t>(std::min<std::uint64_t>(most_photons, photons + count));
   }
+};
+
+/// How photons are divided into blocks, whose sums are added apart (totals.hpp): block b has the photons b · size … (b + 1) · size - 1.
+struct PhotonBlocks {
+  int log2_size = 18;
+
+  /// As many photons as a block of rays has rays, for so many discs: smaller blocks would cut blocks of rays. At least a
+  /// sixteenth of the discs, because the end of a block costs some time for each disc, and memory grows with the logarithm of the
+  /// number of blocks.
+  [[nodiscard]] static PhotonBlocks for_discs(std::size_t discs) {
+    return {std::countr_zero(std::bit_ceil(std::max(rays_in_block(discs), discs / 16)))};
+  }
+
+  [[nodiscard]] std::uint64_t of(std::uint64_t photon) const { return photon >> log2_size; }
+  [[nodiscard]] std::uint64_t first(std::uint64_t block) const { return block << log2_size; }
+
+  bool operator==(const PhotonBlocks&) const = default;
 };
 
 }  // namespace detp::sim

@@ -9,7 +9,7 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/geometry/paths.hpp"
-#include "photon_blocks.hpp"
+#include "photon_sums.hpp"
 
 namespace detp::sim {
 

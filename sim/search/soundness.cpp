@@ -9,7 +9,7 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/base/parallel.hpp"
-#include "detp/sim/geometry/unit_vector.hpp"
+#include "detp/sim/geometry/directions.hpp"
 
 namespace detp::sim {
 namespace {

@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "photon_blocks.hpp"
 #include "photon_sums.hpp"
 
 /// Sums over rays, in the order that all techniques use.

@@ -21,4 +21,15 @@ std::unique_ptr<Index> PilotedDiscs::build(const Problem& problem, const BoxTree
   return prepare_box_tree(problem, std::move(discs_), parameters, options);
 }
 
+DiscOrder::DiscOrder(const Problem& problem, const RunOptions& options)
+    : places_(stream::curve_order(problem, options)) {}
+
+std::unique_ptr<Index> DiscOrder::prepare(const Problem& problem, const BoxTreeParameters& parameters,
+                                          const RunOptions& options) const {
+  check_options(options, problem);
+  check(parameters);
+  return prepare_box_tree(problem, stream::discs_in_known_order(problem, stream::Frame(problem), places_, options),
+                          parameters, options);
+}
+
 }  // namespace detp::sim

@@ -3,12 +3,33 @@
 #include <memory>
 #include <optional>
 
-#include "detp/sim/lists/simd/box_tree_pilot.hpp"
+#include "detp/sim/base/unset_vector.hpp"
+#include "detp/sim/lists/pilot/box_tree_pilot.hpp"
 #include "detp/sim/lists/simd/search.hpp"
 #include "detp/sim/search/index.hpp"
-#include "disc_order.hpp"
 
 namespace detp::sim {
+
+/// The discs' order along the curve, sorted once, for box trees over these discs with any radii. Const and shared by its
+/// copies: 8 bytes a disc.
+class DiscOrder {
+ public:
+  /// Sorts the problem's discs. Throws Stopped if a stop was requested, and std::length_error for 2³¹ or more discs.
+  DiscOrder(const Problem& problem, const RunOptions& options);
+
+  /// Builds a box tree without sorting. The problem's discs must have the centres of those that were sorted, in the same
+  /// sequence; their normals and radii may be others. (Other centres make the tree slow, not wrong.) Throws as
+  /// sim::prepare, and std::invalid_argument if the number of discs differs.
+  [[nodiscard]] std::unique_ptr<Index> prepare(const Problem& problem, const BoxTreeParameters& parameters,
+                                               const RunOptions& options) const;
+
+ private:
+  friend class PilotedDiscs;
+  using Places = std::shared_ptr<const UnsetVector<std::uint64_t>>;  ///< stream::CurveOrder
+  explicit DiscOrder(Places places) : places_(std::move(places)) {}
+
+  Places places_;
+};
 
 /// Discs, sorted once: first a pilot predicts the counts of box trees with any parameters, then the best one is built.
 class PilotedDiscs {

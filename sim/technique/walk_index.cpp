@@ -4,7 +4,6 @@
 #include "detp/sim/lists/plain/ray_list.hpp"
 #include "detp/sim/lists/plain/walk_search.hpp"
 #include "detp/sim/lists/simd/search.hpp"
-#include "detp/sim/lists/simd/walk_search.hpp"
 #include "detp/sim/search/run_memory.hpp"
 
 namespace detp::sim {

@@ -10,7 +10,6 @@
 
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/geometry.hpp"
-#include "detp/sim/geometry/unit_vector.hpp"
 
 /// Makes small problems from a fuzzer's bytes. Degenerate problems are likely: most bytes select special cases.
 namespace detp::fuzz {

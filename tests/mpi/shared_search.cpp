@@ -9,7 +9,7 @@
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/photon_source.hpp"
 #include "detp/sim/ranks/mpi_ranks.hpp"
-#include "detp/sim/technique/ranked.hpp"
+#include "detp/sim/ranked/ranked.hpp"
 
 using namespace detp;
 using namespace detp::sim;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "detp/sim/files/disc_file.hpp"
-#include "detp/sim/files/mesh_writer.hpp"
+#include "detp/sim/files/mesh_file.hpp"
 #include "detp/sim/files/ray_file.hpp"
 #include "detp/sim/geometry/curve_sort.hpp"
 #include "detp/sim/geometry/hilbert.hpp"

@@ -6,7 +6,6 @@
 
 #include "detp/sim/lists/simd/list_search.hpp"
 #include "detp/sim/lists/simd/load_rays.hpp"
-#include "detp/sim/lists/simd/tree_search.hpp"
 
 /// Calls the float kernels directly, so that tests may narrow their bands and margins.
 namespace detp::support {

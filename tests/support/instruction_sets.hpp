@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "detp/sim/lists/simd/instruction_sets.hpp"
-#include "detp/sim/lists/simd/tree_search.hpp"
+#include "detp/sim/lists/simd/list_search.hpp"
 
 namespace detp::support {
 

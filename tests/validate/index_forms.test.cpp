@@ -5,7 +5,6 @@
 #include <string>
 
 #include "detp/model/disc_index/disc_index.hpp"
-#include "detp/model/disc_index/index_memory.hpp"
 #include "detp/sim/geometry/ray_box.hpp"
 #include "detp/sim/index/disc_index.hpp"
 #include "detp/sim/index/indexed_search.hpp"

@@ -13,7 +13,7 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/files/disc_file.hpp"
-#include "detp/sim/photons/light_notes.hpp"
+#include "detp/sim/photons/light_ledger.hpp"
 #include "detp/sim/ranks/failures.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/checkpoint/checkpoint_file.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "accuracy_check.hpp"
-#include "detp/sim/base/progress.hpp"
+#include "detp/sim/base/stopped.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/scene/selection.hpp"
 #include "detp/validate/axes/axes.hpp"

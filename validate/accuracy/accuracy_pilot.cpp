@@ -10,7 +10,7 @@
 
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/sim/photons/light_notes.hpp"
+#include "detp/sim/photons/light_ledger.hpp"
 
 namespace detp::validate {
 namespace {
@@ -273,7 +273,7 @@ double PilotMaker::predicted_seconds(const PilotSize& size, const AccuracyPilot*
       const double of_surfaces = costs_.surfaces(one.estimator);
       const double none = costs_.estimate(one.estimator, 1, {}).per_ray;
       const double of_ray = none + std::max(0.0, all.per_ray - none) * share;
-      const double times = one.estimator == sim::Estimator::area_corrected ? 1 : runs;  // areas are measured once
+      const double times = sim::record_of(one.estimator).keeps_areas ? 1 : runs;
       seconds += times * (all.fixed - of_surfaces) * share + runs * of_ray * of_run;
     }
   }

@@ -94,7 +94,7 @@ std::optional<PilotMaker::RehearsalSize> PilotMaker::rehearsal_size(const Accura
   const GrowingSeconds all = own.seconds(scale_of(setting));
   const bool gathers = estimator == sim::Estimator::gather;
   // areas, and what traces rays, are made once
-  const double times = estimator == sim::Estimator::area_corrected ? 1 : gathers ? 0 : parts;
+  const double times = sim::record_of(estimator).keeps_areas ? 1 : gathers ? 0 : parts;
   const auto population = static_cast<double>(scene_.samples.size());
   RehearsalSize size{most_rays, judged_.population};
   const auto fixed = [&] {

@@ -55,7 +55,7 @@ sim::Outcome ReplicateMaker::estimate(const sim::PathRays& paths, std::span<cons
   const sim::Problem problem = sim::make_problem(paths, discs, front_facing_, sim::thread_count(threads_), stop_);
   const sim::RunOptions options{.count = false, .standard_error = standard_error, .stop = stop_, .threads = threads_};
   sim::Outcome outcome =
-      sim::record_of(setting.estimator).needs_mesh
+      sim::record_of(setting.estimator).needs_mesh()
           ? sim::run(problem, surfaces(setting.estimator), options)
           : sim::estimate(problem,
                           {.estimator = setting.estimator, .candidate = usual_search, .nearest = setting.nearest},

@@ -28,10 +28,7 @@ struct AccuracySetting {
 };
 
 /// Whether the radius matters to the estimator.
-[[nodiscard]] constexpr bool uses_radius(sim::Estimator estimator) {
-  return estimator != sim::Estimator::nearest && estimator != sim::Estimator::triangle_hits &&
-         estimator != sim::Estimator::gather;
-}
+[[nodiscard]] constexpr bool uses_radius(sim::Estimator estimator) { return sim::record_of(estimator).uses_radius; }
 
 /// Makes photon paths of a scene and estimates from them, as `detp run` does. The scene must outlive this; its overshoot is set.
 class ReplicateMaker {

@@ -12,7 +12,7 @@
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/lists/simd/instruction_sets.hpp"
-#include "detp/sim/lists/simd/tree_search.hpp"
+#include "detp/sim/lists/simd/list_search.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 

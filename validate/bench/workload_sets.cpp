@@ -184,7 +184,7 @@ std::vector<BenchWorkload> family_workloads(std::uint64_t seed) {
   constexpr int photons_of_scene = 5;
   std::vector<BenchWorkload> workloads;
   std::uint64_t place = 0;
-  for (const sim::families::Family& family : sim::families::all_families())
+  for (const sim::families::Family& family : sim::families::all_families)
     for (int scene = 0; scene < scenes_of_family; ++scene)
       for (int i = 0; i < workloads_of_scene; ++i) {
         const std::string name = fmt::format("@{}:{}", family.name, 100 * seed + static_cast<std::uint64_t>(scene));

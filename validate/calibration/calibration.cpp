@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/sim/lists/simd/tree_search.hpp"
+#include "detp/sim/lists/simd/list_search.hpp"
 
 namespace detp::validate {
 namespace {

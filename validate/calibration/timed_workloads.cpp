@@ -13,7 +13,7 @@
 
 #include "detp/model/sphere_cache/sphere_count.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/sim/geometry/lebesgue.hpp"
+#include "detp/sim/geometry/curve.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/rays/line_field.hpp"
 

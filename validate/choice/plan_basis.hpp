@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "detp/sim/base/floating_point.hpp"
-#include "detp/sim/technique/disc_order.hpp"
+#include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/searcher.hpp"
 #include "plan.hpp"
 

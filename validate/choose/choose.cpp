@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "detp/model/rank/choose.hpp"
-#include "detp/model/rank/paper_rule.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "detp/model/ranks/ranks.hpp"
-#include "detp/sim/base/progress.hpp"
+#include "detp/sim/base/stopped.hpp"
 #include "detp/sim/effects/observe.hpp"
 #include "detp/validate/base/fields.hpp"
 #include "detp/validate/choice/analysis.hpp"

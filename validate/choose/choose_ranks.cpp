@@ -10,7 +10,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/photons/photon_source.hpp"
 #include "detp/sim/rays/ray_source.hpp"
-#include "detp/sim/search/photon_blocks.hpp"
+#include "detp/sim/search/photon_sums.hpp"
 #include "detp/sim/search/soundness.hpp"
 
 namespace detp::validate {

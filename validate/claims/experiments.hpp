@@ -6,7 +6,7 @@
 
 #include "claim.hpp"
 #include "detp/sim/base/phase.hpp"
-#include "detp/sim/base/progress.hpp"
+#include "detp/sim/base/stopped.hpp"
 
 /// The experiments that test the claims. Each experiment counts by simulation, without using a formula.
 ///

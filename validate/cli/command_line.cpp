@@ -10,7 +10,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/validate/cli/options/number_option.hpp"

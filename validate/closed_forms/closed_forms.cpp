@@ -8,7 +8,6 @@
 
 #include "detp/model/disc_index/disc_index.hpp"
 #include "detp/model/disc_index/disc_index_published.hpp"
-#include "detp/model/disc_index/index_memory.hpp"
 #include "detp/model/hierarchy/cell_spheres.hpp"
 #include "detp/model/hierarchy/sphere_tree.hpp"
 #include "detp/model/optimum/best_published_ratio.hpp"

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "detp/model/rank/paper_rule.hpp"
+#include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "detp/sim/base/progress.hpp"
+#include "detp/sim/base/stopped.hpp"
 #include "detp/validate/choice/analysis.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/job/job.hpp"

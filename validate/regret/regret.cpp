@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "detp/model/rank/paper_rule.hpp"
+#include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/choice/analysis.hpp"

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/lists/simd/instruction_sets.hpp"
 

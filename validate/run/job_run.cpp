@@ -10,7 +10,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/ranks/failures.hpp"
-#include "detp/sim/technique/ranked.hpp"
+#include "detp/sim/ranked/ranked.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/base/json.hpp"
 #include "detp/validate/base/search_work.hpp"

@@ -7,7 +7,7 @@
 
 #include "detp/model/optimum/best_ratio.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "detp/sim/photons/light_notes.hpp"
+#include "detp/sim/photons/light_ledger.hpp"
 #include "detp/validate/stopping/job_batches.hpp"
 #include "run_to_target.hpp"
 
@@ -196,7 +196,7 @@ JobRequest job_request(std::span<const RunRequest> requests) {
   job.stream = job.store_discs =
       !until && all([](const RunRequest& one) { return one.estimator == sim::Estimator::disc; });
   job.keep_scene = until || !all([](const RunRequest& one) {
-                     return !sim::record_of(one.estimator).needs_mesh && !sim::record_of(one.estimator).needs_scene;
+                     return !sim::record_of(one.estimator).needs_mesh() && !sim::record_of(one.estimator).needs_scene;
                    });
   job.without_rays = all([](const RunRequest& one) { return one.gathers(); });
   job.in_batches = until;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "detp/sim/base/threads.hpp"
-#include "detp/sim/technique/ranked.hpp"
+#include "detp/sim/ranked/ranked.hpp"
 #include "detp/validate/answer/parts.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/stopping/job_batches.hpp"

@@ -8,7 +8,7 @@
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/files/disc_file.hpp"
-#include "detp/sim/files/mesh_writer.hpp"
+#include "detp/sim/files/mesh_file.hpp"
 #include "detp/sim/files/ray_file.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/validate/answer/parts.hpp"

@@ -26,7 +26,7 @@ void require_batches(sim::Estimator estimator) {
     throw std::invalid_argument(fmt::format(
         "the estimator {} traces no photons, so it cannot run until an error is reached: more paths, less noise",
         name(estimator)));
-  if (estimator == sim::Estimator::nearest || estimator == sim::Estimator::variable_radius)
+  if (sim::record_of(estimator).all_at_once)
     throw std::invalid_argument(
         fmt::format("the estimator {} needs all its rays at once, and cannot run until an error is reached: detp "
                     "accuracy finds its number of rays",

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "detp/sim/base/stop_check.hpp"
-#include "detp/sim/geometry/lebesgue.hpp"
+#include "detp/sim/geometry/curve.hpp"
 #include "detp/sim/rays/line_field.hpp"
 
 namespace detp::validate {

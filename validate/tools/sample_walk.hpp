@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "detp/sim/geometry/lebesgue.hpp"
+#include "detp/sim/geometry/curve.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 
 /// Samples in the order of the Morton curve, and balls that move along these samples. Used by the parts of

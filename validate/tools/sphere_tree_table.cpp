@@ -20,7 +20,7 @@
 #include <cmath>
 #include <vector>
 
-#include "detp/sim/geometry/lebesgue.hpp"
+#include "detp/sim/geometry/curve.hpp"
 #include "detp/sim/lists/sphere_nodes.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 

@@ -57,7 +57,7 @@ double AccuracyCosts::read(double text_bytes, double binary_bytes, double discs)
 double AccuracyCosts::path(double casts) const { return unit_ * (0.1 + 0.026 * log_of(triangles_)) * casts; }
 
 double AccuracyCosts::surfaces(sim::Estimator estimator) const {
-  return sim::record_of(estimator).needs_mesh ? unit_ * 0.55 * triangles_ : 0;
+  return sim::record_of(estimator).needs_mesh() ? unit_ * 0.55 * triangles_ : 0;
 }
 
 GrowingSeconds AccuracyCosts::estimate(sim::Estimator estimator, double samples, const SettingCounts& counts) const {

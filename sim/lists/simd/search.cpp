@@ -9,7 +9,7 @@
 #include "detp/sim/search/run_memory.hpp"
 #include "disc_results.hpp"
 #include "ray_blocks.hpp"
-#include "tree_search.hpp"
+#include "list_search.hpp"
 
 namespace detp::sim::stream {
 namespace {

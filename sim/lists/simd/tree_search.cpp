@@ -1,4 +1,4 @@
-#include "tree_search.hpp"
+#include "list_search.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "detp/sim/lists/simd/tree_search.cpp"

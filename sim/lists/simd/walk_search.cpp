@@ -1,4 +1,4 @@
-#include "walk_search.hpp"
+#include "search.hpp"
 
 #include <array>
 
@@ -7,7 +7,6 @@
 #include "disc_results.hpp"
 #include "list_search.hpp"
 #include "ray_blocks.hpp"
-#include "search.hpp"
 
 namespace detp::sim::stream {
 namespace {

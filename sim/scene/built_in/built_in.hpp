@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "detp/sim/scene/scene.hpp"
@@ -48,6 +50,16 @@ struct LitMesh {
 /// A square floor of side 1 in parallel light that arrives 37° from the vertical. The irradiance is 1 everywhere on it: what
 /// the floor reflects leaves the scene.
 [[nodiscard]] LitMesh sunlit();
+
+/// A new scene is a function above, with its file, and a line here.
+struct BuiltIn {
+  std::string_view name;
+  LitMesh (*make)();  ///< null for samples without a mesh
+};
+inline constexpr std::array built_ins{
+    BuiltIn{"@uniform", nullptr},     BuiltIn{"@tree", tree},       BuiltIn{"@tree-coarse", tree_coarse},
+    BuiltIn{"@courtyard", courtyard}, BuiltIn{"@cornell", cornell}, BuiltIn{"@caustic", caustic},
+    BuiltIn{"@interior", interior},   BuiltIn{"@furnace", furnace}, BuiltIn{"@sunlit", sunlit}};
 
 /// A point uniform in the cube [-1, 1]³ with an isotropic normal, as a function of its number and of the seed.
 [[nodiscard]] Sample uniform_sample(std::size_t number, std::uint64_t seed);

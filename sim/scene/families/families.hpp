@@ -1,7 +1,7 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <span>
 #include <string_view>
 
 #include "detp/sim/scene/built_in/built_in.hpp"
@@ -33,7 +33,8 @@ struct Family {
   built_in::LitMesh (*make)(std::uint64_t seed);
 };
 
-/// In the order above.
-[[nodiscard]] std::span<const Family> all_families();
+inline constexpr std::array all_families{Family{"room", room},       Family{"plant", plant},
+                                         Family{"machine", machine}, Family{"terrain", terrain},
+                                         Family{"shells", shells},   Family{"details", details}};
 
 }  // namespace detp::sim::families

@@ -1,4 +1,4 @@
-#include "detp/model/disc_index/index_mailbox.hpp"
+#include "detp/model/disc_index/index_cells.hpp"
 
 #include <doctest/doctest.h>
 

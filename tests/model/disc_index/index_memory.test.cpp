@@ -1,11 +1,10 @@
-#include "detp/model/disc_index/index_memory.hpp"
+#include "detp/model/disc_index/disc_index.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include "detp/model/disc_index/disc_index.hpp"
 #include "support/not_a_length.hpp"
 #include "support/workloads.hpp"
 

@@ -1,4 +1,4 @@
-#include "detp/model/hierarchy/box_tree_cells.hpp"
+#include "detp/model/hierarchy/box_tree_boxes.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "detp/model/rank/paper_rule.hpp"
+#include "detp/model/rank/choose.hpp"
 
 #include <doctest/doctest.h>
 

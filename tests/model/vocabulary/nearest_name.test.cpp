@@ -1,4 +1,4 @@
-#include "detp/model/vocabulary/nearest_name.hpp"
+#include "detp/model/vocabulary/quoted.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,13 +6,12 @@
 #include <type_traits>
 
 #include "detp/model/disc_index/index_cells.hpp"
-#include "detp/model/disc_index/index_memory.hpp"
+#include "detp/model/disc_index/disc_index.hpp"
 #include "detp/model/hierarchy/cell_spheres.hpp"
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/optimum/best_published_ratio.hpp"
 #include "detp/model/optimum/best_ratio.hpp"
 #include "detp/model/rank/choose.hpp"
-#include "detp/model/rank/paper_rule.hpp"
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
 

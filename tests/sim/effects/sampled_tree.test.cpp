@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "detp/sim/geometry/lebesgue.hpp"
+#include "detp/sim/geometry/curve.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/search/problem.hpp"
 

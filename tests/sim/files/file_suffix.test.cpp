@@ -1,4 +1,4 @@
-#include "detp/sim/files/file_suffix.hpp"
+#include "detp/sim/files/table_writer.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,7 @@
-#include "detp/sim/files/mesh_writer.hpp"
+#include "detp/sim/files/mesh_file.hpp"
 
 #include <doctest/doctest.h>
 
-#include "detp/sim/files/mesh_file.hpp"
 #include "support/scratch_file.hpp"
 
 using namespace detp;

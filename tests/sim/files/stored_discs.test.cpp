@@ -1,9 +1,8 @@
-#include "detp/sim/files/stored_discs.hpp"
+#include "detp/sim/files/disc_file.hpp"
 
 #include <doctest/doctest.h>
 
 #include "detp/sim/base/stopped.hpp"
-#include "detp/sim/files/disc_file.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/search/disc_summary.hpp"
 #include "support/disc_ply.hpp"

@@ -1,4 +1,4 @@
-#include "detp/sim/geometry/dominant_axis.hpp"
+#include "detp/sim/geometry/directions.hpp"
 
 #include <doctest/doctest.h>
 

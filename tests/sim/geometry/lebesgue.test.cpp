@@ -1,4 +1,4 @@
-#include "detp/sim/geometry/lebesgue.hpp"
+#include "detp/sim/geometry/curve.hpp"
 
 #include <doctest/doctest.h>
 

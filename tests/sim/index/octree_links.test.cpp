@@ -1,4 +1,4 @@
-#include "detp/sim/index/octree_links.hpp"
+#include "detp/sim/index/octree_nodes.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "detp/sim/photons/photon_shares.hpp"
+#include "detp/sim/photons/photon_paths.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,6 @@
 #include <random>
 
 #include "detp/sim/open/open_scene.hpp"
-#include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/photon_source.hpp"
 #include "detp/sim/photons/photon_walk.hpp"
 #include "support/boxes.hpp"

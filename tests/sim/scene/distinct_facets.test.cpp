@@ -1,4 +1,4 @@
-#include "detp/sim/scene/distinct_facets.hpp"
+#include "detp/sim/scene/facet.hpp"
 
 #include <doctest/doctest.h>
 

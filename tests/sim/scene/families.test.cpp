@@ -19,7 +19,7 @@ Scene open_family(std::string_view family, const std::string& seed) {
 
 TEST_SUITE("known answer") {
   TEST_CASE("each family has another scene for each seed, with samples and light") {
-    for (const families::Family& family : families::all_families()) {
+    for (const families::Family& family : families::all_families) {
       CAPTURE(family.name);
       std::set<std::size_t> counts;
       for (std::uint64_t seed = 1; seed <= 4; ++seed) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "detp/sim/geometry/random.hpp"
-#include "detp/sim/geometry/unit_vector.hpp"
+#include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/search/soundness.hpp"
 #include "support/instruction_sets.hpp"
 #include "support/not_a_length.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "detp/sim/geometry/unit_vector.hpp"
+#include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "detp/sim/base/threads.hpp"
-#include "detp/sim/geometry/dominant_axis.hpp"
+#include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"

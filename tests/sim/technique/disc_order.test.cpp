@@ -1,4 +1,4 @@
-#include "detp/sim/technique/disc_order.hpp"
+#include "detp/sim/technique/piloted_discs.hpp"
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "detp/model/accuracy/nearest_photons.hpp"
-#include "detp/model/disc_index/index_memory.hpp"
+#include "detp/model/disc_index/disc_index.hpp"
 #include "support/command.hpp"
 
 namespace detp::support {

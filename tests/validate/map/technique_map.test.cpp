@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "detp/model/rank/paper_rule.hpp"
+#include "detp/model/rank/choose.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "support/scratch_file.hpp"

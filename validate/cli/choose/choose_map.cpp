@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "choose_text.hpp"
-#include "detp/sim/files/file_suffix.hpp"
+#include "detp/sim/files/table_writer.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/validate/answer/parts.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"

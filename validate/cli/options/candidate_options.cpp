@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/lists/simd/instruction_sets.hpp"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/sim/files/file_suffix.hpp"
+#include "detp/sim/files/table_writer.hpp"
 #include "detp/sim/files/obj_file.hpp"
 #include "detp/sim/files/output_place.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"

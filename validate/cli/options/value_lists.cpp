@@ -8,7 +8,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 
 namespace detp::cli {

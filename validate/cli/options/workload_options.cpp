@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/files/mesh_file.hpp"
 #include "detp/sim/open/open_scene.hpp"
 
 namespace detp::cli {
@@ -64,11 +65,9 @@ void require_numbers(const validate::JobRequest& request) {
 
 void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Values> axes) {
   using enum ValueLists::Kind;
-  command.add_option(
-      "SCENE", request_.scene,
-      "a mesh (.obj, .ply) or @uniform, @tree, @tree-coarse, @courtyard, @cornell, @caustic, "
-      "@interior, @furnace, @sunlit, or one of many with a seed: @room:7, @plant:7, @machine:7, @terrain:7, "
-      "@shells:7, @details:7");
+  command.add_option("SCENE", request_.scene,
+                     fmt::format("a mesh ({}), or {} (one of many, SEED a whole number)", sim::mesh_suffixes(),
+                                 sim::built_in_scenes()));
   command.add_option("--discs", request_.disc_file,
                      "discs from a CSV, PLY or NPY file; default: one at each of the scene's samples");
   command.add_option("--ray-file", request_.ray_file,

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/sim/photons/light_notes.hpp"
+#include "detp/sim/photons/light_ledger.hpp"
 
 namespace detp::cli {
 namespace {

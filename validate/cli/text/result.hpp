@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "detp/sim/base/progress.hpp"
+#include "detp/sim/base/stopped.hpp"
 #include "detp/validate/base/json.hpp"
 
 namespace detp::validate {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "detp/sim/lists/simd/tree_search.hpp"
+#include "detp/sim/lists/simd/list_search.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "support/float_candidates.hpp"
 #include "support/hard_scene.hpp"
