@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -22,11 +23,10 @@
 ///
 ///     <!-- figures FILE where CONDITIONS
 ///     columns ; STATISTICS ; STATISTICS …
-///     row CONDITIONS
-///     row CONDITIONS …
+///     rows CONDITIONS ; CONDITIONS …
 ///     -->
 ///
-/// The n-th entry of `columns` belongs to the n-th column of the table, the n-th `row` to its n-th row below the header. A cell has the
+/// The n-th entry of `columns` belongs to the n-th column of the table, the n-th entry of all lines `rows` to its n-th row below the header. A cell has the
 /// figures of its statistics in their order; other text, and columns with an empty entry, are free. A marker in a sentence has
 /// the figures that follow it:
 ///
@@ -231,8 +231,8 @@ inline void add_table(const std::string& where, const std::vector<std::string>& 
     const std::string rest = blank == std::string::npos ? "" : lines[i].substr(blank);
     if (word == "columns")
       columns = split(rest, ';');
-    else if (word == "row")
-      conditions.push_back(rest);
+    else if (word == "rows")
+      std::ranges::copy(split(rest, ';'), std::back_inserter(conditions));
     else
       refuse(fmt::format("{}: not a line of a marker: {}", where, lines[i]));
   }
@@ -248,7 +248,7 @@ inline void add_table(const std::string& where, const std::vector<std::string>& 
       const std::vector<std::string> statistics = words_of(columns[j]);
       if (statistics.empty()) continue;
       if (j >= cells.size()) refuse(fmt::format("{}: row {} has no column {}", where, i + 1, j + 1));
-      add_figures(fmt::format("{}, row{}", where, conditions[i]), statistics, some, cells[j], all);
+      add_figures(fmt::format("{}, row {}", where, conditions[i]), statistics, some, cells[j], all);
     }
   }
 }
