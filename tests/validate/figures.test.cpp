@@ -124,6 +124,12 @@ TEST_SUITE("figures") {
     const auto found = figures_in(page);
     REQUIRE(found.size() == 9);
     for (const Figure& figure : found) CHECK(figure.shown == figure.computed);
+    // A column with conditions of its own.
+    const auto sides = figures_in(
+        "<!-- figures t.csv where x>1\ncolumns ; @engine=simd count ; @engine=plain max(ratio)\nrows scene=b\n-->\n| | "
+        "n | m |\n|-|-|-|\n| b | 1 | 1.5 |\n");
+    REQUIRE(sides.size() == 2);
+    for (const Figure& figure : sides) CHECK(figure.shown == figure.computed);
     CHECK(figures_in("<!-- figures t.csv where engine=simd: max(ratio) -->8.1").front().computed == "8.0");
   }
 
