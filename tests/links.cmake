@@ -1,5 +1,6 @@
 # Checks that relative links in *.md files, and references in comments (folder/page.md or folder/page.md, "Heading"),
-# lead to existing files and headings, and that CITATION.cff and CHANGELOG.md name the project's version. Called with -D SOURCE=<top of the project>.
+# lead to existing files and headings, that CITATION.cff and CHANGELOG.md name the project's version, and that the README.md of model, sim and
+# validate links to each folder directly in it. Called with -D SOURCE=<top of the project>.
 
 cmake_policy(VERSION 3.25)
 file(STRINGS ${SOURCE}/CMakeLists.txt version REGEX "^project\\(detp VERSION ")
@@ -60,6 +61,19 @@ foreach(source ${sources})
     math(EXPR checked "${checked} + 1")
   endforeach()
 endforeach()
+# The links of a part's README.md to folders in the part, and the folders that there are.
+foreach(part model sim validate)
+  read_plain(${SOURCE}/${part}/README.md text)
+  string(REGEX MATCHALL "LINK\\([a-z_]+/" named "${text}")
+  list(TRANSFORM named REPLACE "LINK\\(|/" "")
+  file(GLOB entries RELATIVE ${SOURCE}/${part} ${SOURCE}/${part}/*)
+  foreach(entry ${entries})
+    if(IS_DIRECTORY ${SOURCE}/${part}/${entry} AND NOT entry IN_LIST named)
+      message(SEND_ERROR "${part}/README.md does not link to the folder ${entry}")
+    endif()
+  endforeach()
+endforeach()
+
 if(checked EQUAL 0)
   message(FATAL_ERROR "no link found: is SOURCE right?")
 endif()

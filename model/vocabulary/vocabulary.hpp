@@ -1,5 +1,4 @@
 #pragma once
-
 /// The types that prediction and simulation share.
 #include "bytes_touched.hpp"
 #include "checks.hpp"
@@ -11,5 +10,5 @@
 #include "technique.hpp"
 #include "thread_costs.hpp"
 #include "unit_costs.hpp"
-#include "workload.hpp"
 #include "valid.hpp"
+#include "workload.hpp"

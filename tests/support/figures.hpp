@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -22,11 +23,11 @@
 ///
 ///     <!-- figures FILE where CONDITIONS
 ///     columns ; STATISTICS ; STATISTICS …
-///     row CONDITIONS
-///     row CONDITIONS …
+///     rows CONDITIONS ; CONDITIONS …
 ///     -->
 ///
-/// The n-th entry of `columns` belongs to the n-th column of the table, the n-th `row` to its n-th row below the header. A cell has the
+/// The n-th entry of `columns` belongs to the n-th column of the table, the n-th entry of all lines `rows` to its n-th row below the header.
+/// Words of an entry of `columns` that begin with @ are conditions of this column alone: `@CONDITION`. A cell has the
 /// figures of its statistics in their order; other text, and columns with an empty entry, are free. A marker in a sentence has
 /// the figures that follow it:
 ///
@@ -231,8 +232,8 @@ inline void add_table(const std::string& where, const std::vector<std::string>& 
     const std::string rest = blank == std::string::npos ? "" : lines[i].substr(blank);
     if (word == "columns")
       columns = split(rest, ';');
-    else if (word == "row")
-      conditions.push_back(rest);
+    else if (word == "rows")
+      std::ranges::copy(split(rest, ';'), std::back_inserter(conditions));
     else
       refuse(fmt::format("{}: not a line of a marker: {}", where, lines[i]));
   }
@@ -245,10 +246,17 @@ inline void add_table(const std::string& where, const std::vector<std::string>& 
     const std::vector<std::string> cells = cells_of(table[i + 2]);
     const Rows some = selected(rows, words_of(conditions[i]));
     for (std::size_t j = 0; j < columns.size(); ++j) {
-      const std::vector<std::string> statistics = words_of(columns[j]);
+      std::vector<std::string> own;  // conditions of the column
+      std::vector<std::string> statistics;
+      for (const std::string& word : words_of(columns[j]))
+        if (word.starts_with('@'))
+          own.push_back(word.substr(1));
+        else
+          statistics.push_back(word);
       if (statistics.empty()) continue;
       if (j >= cells.size()) refuse(fmt::format("{}: row {} has no column {}", where, i + 1, j + 1));
-      add_figures(fmt::format("{}, row{}", where, conditions[i]), statistics, some, cells[j], all);
+      add_figures(fmt::format("{}, row {}, column {}", where, conditions[i], columns[j]), statistics,
+                  selected(some, own), cells[j], all);
     }
   }
 }

@@ -98,7 +98,7 @@ TEST_SUITE("figures") {
       for (const std::string verdict : {" does not hold", " refuted", " undecided"})
         do_not += cells[3].starts_with(verdict) ? 1 : 0;
     }
-    check_says(page, fmt::format("Of {} statements, {} hold, {} hold in part, and\n{} do not.", all, hold,
+    check_says(page, fmt::format("Of {} statements, {} hold, {} hold in part, and {} do not.", all, hold,
                                  all - hold - do_not, do_not));
   }
 
@@ -116,13 +116,20 @@ TEST_SUITE("figures") {
 
   TEST_CASE("figures of a table are found by row and column") {
     const std::string page =
-        "Text 9.\n\n<!-- figures t.csv where x<5\ncolumns ; count ; max(ratio) min(ratio) ;\nrow engine=simd\nrow "
+        "Text 9.\n\n<!-- figures t.csv where x<5\ncolumns ; count ; max(ratio) min(ratio) ;\nrows engine=simd ; "
         "scene=a "
-        "engine=simd\n-->\n\n| 7 | n | range | note |\n|---|---|---|---|\n| 5 | 3 | 8 (0.5) | 6 |\n| 5 | 2 | 2 (0.5) | "
-        "6 |\n\nMore 4.";
+        "engine=simd\nrows scene=b engine=simd\n-->\n\n| 7 | n | range | note |\n|---|---|---|---|\n| 5 | 3 | 8 (0.5) "
+        "| 6 |\n"
+        "| 5 | 2 | 2 (0.5) | 6 |\n| 5 | 1 | 8 (8) | 6 |\n\nMore 4.";
     const auto found = figures_in(page);
-    REQUIRE(found.size() == 6);
+    REQUIRE(found.size() == 9);
     for (const Figure& figure : found) CHECK(figure.shown == figure.computed);
+    // A column with conditions of its own.
+    const auto sides = figures_in(
+        "<!-- figures t.csv where x>1\ncolumns ; @engine=simd count ; @engine=plain max(ratio)\nrows scene=b\n-->\n| | "
+        "n | m |\n|-|-|-|\n| b | 1 | 1.5 |\n");
+    REQUIRE(sides.size() == 2);
+    for (const Figure& figure : sides) CHECK(figure.shown == figure.computed);
     CHECK(figures_in("<!-- figures t.csv where engine=simd: max(ratio) -->8.1").front().computed == "8.0");
   }
 
@@ -133,7 +140,7 @@ TEST_SUITE("figures") {
       CHECK_THROWS_AS((void)figures_in("<!-- figures t.csv " + bad + " -->1"), std::invalid_argument);
     CHECK_THROWS_AS((void)figures_in("<!-- figures t.csv where engine=simd: count -->none"), std::invalid_argument);
     CHECK_THROWS_AS(
-        (void)figures_in("<!-- figures t.csv where x<5\ncolumns count\nrow x<2\n-->\n|a|\n|-|\n|1|\n|1|\n\n"),
+        (void)figures_in("<!-- figures t.csv where x<5\ncolumns count\nrows x<2\n-->\n|a|\n|-|\n|1|\n|1|\n\n"),
         std::invalid_argument);
   }
 }

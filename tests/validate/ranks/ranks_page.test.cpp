@@ -79,7 +79,7 @@ TEST_SUITE("figures") {
     check_says(page, fmt::format("that share discs searched {} times as long", parts.text()));
     check_says(page, fmt::format("Making and counting rays takes {} times as long", make.text()));
     check_says(page, fmt::format("memory is {} times what was predicted", memory.text()));
-    check_says(page, fmt::format("Two processes that share rays take {} of\nthe time of one", two.text()));
+    check_says(page, fmt::format("Two processes that share rays take {} of the time of one", two.text()));
   }
 
   TEST_CASE("the page's runs on processes are those of ranks.csv") {

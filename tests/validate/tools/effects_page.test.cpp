@@ -78,7 +78,8 @@ TEST_SUITE("figures") {
     }
     check_says(page, fmt::format("that rule loses {} % (seed 42)", percent_above(by_rule)));
     const std::string effects = source_text("sim/effects/README.md");
-    check_says(effects, fmt::format("{:.2f} ms in the median of {}\n", validate::median(evidence), evidence.size()));
+    check_says(effects,
+               fmt::format("{:.2f} ms in the median of {} workloads", validate::median(evidence), evidence.size()));
     check_says(effects, fmt::format("{:.2f} ms at the 95th percentile, {:.2f} ms at most",
                                     validate::quantile(evidence, 0.95), *std::ranges::max_element(evidence)));
   }
