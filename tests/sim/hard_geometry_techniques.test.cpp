@@ -10,20 +10,16 @@
 #include <vector>
 
 #include "detp/sim/technique/technique.hpp"
-#include "support/float_candidates.hpp"
+#include "support/candidates.hpp"
 #include "support/hard_scene.hpp"
-#include "support/in_parallel.hpp"
+#include "support/machine.hpp"
+#include "support/same_bytes.hpp"
 
 using namespace detp;
 using namespace detp::sim;
 using namespace detp::support;
 
 namespace {
-
-/// Decides every pair by the canonical predicate.
-Outcome truth_of(const Problem& problem) {
-  return run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .engine = Engine::plain});
-}
 
 const std::vector<Candidate>& hard_candidates() {
   static const std::vector<Candidate> list = [] {

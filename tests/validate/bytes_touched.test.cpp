@@ -12,7 +12,7 @@
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "support/sanitized.hpp"
+#include "support/machine.hpp"
 
 namespace detp {
 namespace {
@@ -54,20 +54,16 @@ TEST_SUITE("reference value") {
         const Candidate candidate = default_candidate(technique);
         Counts<double> counts;
         const double found = touched(problem, candidate, counts);
-        CAPTURE(name(technique));
-        CAPTURE(size.discs);
-        CAPTURE(found);
+        INFO("name(technique) ", name(technique), ", size.discs ", size.discs, ", found ", found);
         const double expected = bytes_touched(counts, candidate, Engine::simd);
         return std::max(expected, 1e6) / std::max(found, 1e6);  // below a megabyte nothing matters
       };
       for (const Technique technique : near) {
-        CAPTURE(name(technique));
-        CAPTURE(size.discs);
+        INFO("name(technique) ", name(technique), ", size.discs ", size.discs);
         CHECK(ratio(technique) == doctest::Approx(1).epsilon(0.25));
       }
       for (const Technique technique : rougher) {
-        CAPTURE(name(technique));
-        CAPTURE(size.discs);
+        INFO("name(technique) ", name(technique), ", size.discs ", size.discs);
         const double one = ratio(technique);
         CHECK(one > 0.5);
         CHECK(one < 2);

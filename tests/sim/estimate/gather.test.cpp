@@ -78,9 +78,7 @@ TEST_SUITE("gather") {
     CHECK(std::abs(wrong.mean - 2 * pi) > 8 * wrong.error);
   }
 
-  TEST_CASE(
-      "light straight from a point has no error; a path that brings it is a hit, and there are exactly as many as "
-      "asked") {
+  TEST_CASE("light straight from a point has no error; each path that brings it is a hit") {
     const Scene scene = lit_floor({{PointLight{{0.1, 0.05, 2}}, 3}});
     const std::vector<Disc> discs{{{0.1, 0.05, 0}, {0, 0, 1}, 0.1}, {{0.1, 0.05, 0}, {0, 0, -1}, 0.1}};
     for (const std::uint64_t paths : {1, 7, 64, 100, 3000}) {

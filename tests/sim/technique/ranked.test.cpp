@@ -10,6 +10,7 @@
 
 #include "../ranks/thread_ranks.hpp"
 #include "detp/sim/base/memory.hpp"
+#include "detp/sim/geometry/disc_source.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
@@ -18,8 +19,25 @@
 #include "detp/sim/technique/ranked_rays.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "support/attempts.hpp"
-#include "support/discs_elsewhere.hpp"
-#include "support/memory_limit.hpp"
+#include "support/machine.hpp"
+#include "support/same_bytes.hpp"
+
+namespace detp::support {
+
+/// Discs that are read, as those of a file are.
+class DiscsElsewhere final : public sim::DiscSource {
+ public:
+  explicit DiscsElsewhere(std::span<const sim::Disc> discs) : discs_(discs) {}
+  [[nodiscard]] std::uint64_t size() const override { return discs_.size(); }
+  void read(std::uint64_t first, std::span<sim::Disc> block, const std::stop_token& stop) const override {
+    discs_.read(first, block, stop);
+  }
+
+ private:
+  sim::DiscsInMemory discs_;
+};
+
+}  // namespace detp::support
 
 using namespace detp;
 using namespace detp::sim;
@@ -53,12 +71,8 @@ class UnequalLines final : public RaySource {
 };
 
 void check_same_hits(const StreamedOutcome& found, const StreamedOutcome& expected) {
-  CHECK(found.outcome.hits == expected.outcome.hits);
-  CHECK(found.outcome.irradiance == expected.outcome.irradiance);
-  CHECK(found.outcome.standard_error == expected.outcome.standard_error);
-  CHECK(found.outcome.upper_bound == expected.outcome.upper_bound);
-  CHECK(found.outcome.pairs == expected.outcome.pairs);
-  CHECK(found.outcome.total_hits == expected.outcome.total_hits);
+  support::check_same(found.outcome, expected.outcome,
+                      {.pairs = !expected.outcome.pairs.empty(), .standard_error = true});
 }
 
 void check_same(const StreamedOutcome& found, const StreamedOutcome& expected) {
@@ -91,6 +105,18 @@ StreamedOutcome with_arrays(RankedOutcome ranked) {
   return std::move(ranked.found);
 }
 
+/// What so many ranks find together; `search` is what each does.
+template <class Search>
+StreamedOutcome found_by(int count, const Search& search) {
+  StreamedOutcome found;
+  const auto thrown = on_ranks(count, [&](Ranks& ranks) {
+    RankedOutcome own = search(ranks);
+    if (ranks.rank() == 0) found = own.results ? with_arrays(std::move(own)) : std::move(own.found);
+  });
+  for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+  return found;
+}
+
 StreamOptions options_of(bool pairs) {
   return {.run = {.pairs = pairs, .standard_error = true}, .block = std::size_t{1} << 17};
 }
@@ -106,12 +132,8 @@ TEST_SUITE("ranks") {
       const StreamedOutcome expected = run_streamed(discs, lines, techniques[i], options_of(true));
       for (const int count : i == 0 ? std::vector{1, 2, 3, 4, 7, 9} : std::vector{static_cast<int>(i) + 1}) {
         CAPTURE(count);
-        StreamedOutcome found;
-        const auto thrown = on_ranks(count, [&](Ranks& ranks) {
-          RankedOutcome own = run_on_ranks(discs, lines, techniques[i], options_of(true), ranks);
-          if (ranks.rank() == 0) found = std::move(own.found);
-        });
-        for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+        const StreamedOutcome found = found_by(
+            count, [&](Ranks& ranks) { return run_on_ranks(discs, lines, techniques[i], options_of(true), ranks); });
         check_same(found, expected);
       }
     }
@@ -126,16 +148,14 @@ TEST_SUITE("ranks") {
     CHECK(paths.first_ray_of(paths.photons()) == paths.size());
     const StreamedOutcome expected = run_streamed(discs, paths, techniques[0], options_of(false));
     for (const int count : {2, 3}) {
-      StreamedOutcome found;
-      const auto thrown = on_ranks(count, [&](Ranks& ranks) {
+      const StreamedOutcome found = found_by(count, [&](Ranks& ranks) {
         const PhotonSource together(scene, 1'500'000, 1, caster_for(scene), {}, &ranks);
         CHECK(together.size() == paths.size());
         CHECK(together.photons() == paths.photons());
         CHECK(together.farthest_from({0, 0, 0}) == paths.farthest_from({0, 0, 0}));
         RankedOutcome own = run_on_ranks(discs, together, techniques[0], options_of(false), ranks);
-        if (ranks.rank() == 0) found = std::move(own.found);
+        return own;
       });
-      for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
       check_same(found, expected);
     }
   }
@@ -149,12 +169,9 @@ TEST_SUITE("ranks") {
       const StreamedOutcome expected = run_streamed(discs, lines, techniques[i], options_of(true));
       for (const int count : i == 0 ? std::vector{1, 2, 3, 4, 7, 60} : std::vector{static_cast<int>(i) + 1}) {
         CAPTURE(count);
-        StreamedOutcome found;
-        const auto thrown = on_ranks(count, [&](Ranks& ranks) {
-          RankedOutcome own = run_on_ranks(discs, lines, techniques[i], options_of(true), ranks, Share::discs);
-          if (ranks.rank() == 0) found = std::move(own.found);
+        const StreamedOutcome found = found_by(count, [&](Ranks& ranks) {
+          return run_on_ranks(discs, lines, techniques[i], options_of(true), ranks, Share::discs);
         });
-        for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
         check_same_hits(found, expected);
       }
       check_same_hits(run_in_parts(DiscsInMemory(discs), lines, techniques[i], options_of(true), 3).found, expected);
@@ -164,12 +181,9 @@ TEST_SUITE("ranks") {
     for (const Sample& sample : scene.samples) discs.push_back({sample.position, sample.normal, 0.05});
     const PhotonSource paths(scene, 200'000, 1);
     const StreamedOutcome expected = run_streamed(discs, paths, techniques[0], options_of(true));
-    StreamedOutcome found;
-    const auto thrown = on_ranks(3, [&](Ranks& ranks) {
-      RankedOutcome own = run_on_ranks(discs, paths, techniques[0], options_of(true), ranks, Share::discs);
-      if (ranks.rank() == 0) found = std::move(own.found);
+    const StreamedOutcome found = found_by(3, [&](Ranks& ranks) {
+      return run_on_ranks(discs, paths, techniques[0], options_of(true), ranks, Share::discs);
     });
-    for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
     check_same_hits(found, expected);
     const auto refused = on_ranks(201, [&](Ranks& ranks) {
       static_cast<void>(run_on_ranks(discs, paths, techniques[0], options_of(true), ranks, Share::discs));
@@ -189,15 +203,13 @@ TEST_SUITE("ranks") {
       const StreamedOutcome expected = run_streamed(discs, lines, candidate, options);
       check_same_hits(with_arrays(run_in_parts(elsewhere, lines, candidate, options, 5)), expected);
       for (const int count : {1, 2, 3}) {
-        StreamedOutcome found;
         const MemoryLimit limit(36.0 * (1 << 20));
-        const auto thrown = on_ranks(count, [&](Ranks& ranks) {
+        const StreamedOutcome found = found_by(count, [&](Ranks& ranks) {
           RankedOutcome own = run_on_ranks(elsewhere, lines, candidate, options, ranks);
           CHECK(own.found.bytes < 36.0 * (1 << 20));
           CHECK((own.results != nullptr) == (ranks.rank() == 0));
-          if (ranks.rank() == 0) found = with_arrays(std::move(own));
+          return own;
         });
-        for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
         check_same_hits(found, expected);
       }
     }
@@ -223,12 +235,9 @@ TEST_SUITE("ranks") {
     const std::vector<Disc> near = discs;
     for (const Disc& disc : near) discs.push_back({disc.centre + glm::dvec3{10, 0, 0}, disc.normal, disc.radius});
     const StreamedOutcome expected = run_streamed(discs, lines, techniques[0], options_of(false));
-    StreamedOutcome found;
-    const auto thrown = on_ranks(2, [&](Ranks& ranks) {
-      RankedOutcome own = run_on_ranks(discs, lines, techniques[0], options_of(false), ranks, Share::discs);
-      if (ranks.rank() == 0) found = std::move(own.found);
+    const StreamedOutcome found = found_by(2, [&](Ranks& ranks) {
+      return run_on_ranks(discs, lines, techniques[0], options_of(false), ranks, Share::discs);
     });
-    for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
     check_same_hits(found, expected);
   }
 
@@ -255,8 +264,7 @@ TEST_SUITE("ranks") {
     const PhotonBlocks blocks{10};
     for (const std::vector<double>& seconds :
          {std::vector{1.0, 1.1, 1.0}, {1.0, 2.0, 1.0}, {5.0, 1.0, 1.0}, {1.0, 1.0, 40.0}, {0.001, 0.002, 0.001}}) {
-      CAPTURE(seconds[0]);
-      CAPTURE(seconds[1]);
+      INFO("seconds[0] ", seconds[0], ", seconds[1] ", seconds[1]);
       CutOfRays cut(lines, blocks, 3);
       REQUIRE(cut.has_rest());
       for (int rank = 0; rank < 3; ++rank) CHECK(cut.heads()[rank].next_block - cut.heads()[rank].block == 12);
@@ -291,15 +299,13 @@ TEST_SUITE("ranks") {
       CAPTURE(slow);
       double seconds = 0.02;
       CHECK(support::in_attempts(5, [&] {  // on a busy machine the others may seem slow, too
-        StreamedOutcome found;
         std::vector<std::uint64_t> loaded(3);
-        const auto thrown = on_ranks(3, [&](Ranks& ranks) {
+        const StreamedOutcome found = found_by(3, [&](Ranks& ranks) {
           const UnequalLines lines(sphere, count, ranks.rank() == slow ? 7.5 * seconds : seconds);
           RankedOutcome own = run_on_ranks(discs, lines, techniques[0], options_of(true), ranks);
           loaded[static_cast<std::size_t>(ranks.rank())] = lines.made();
-          if (ranks.rank() == 0) found = std::move(own.found);
+          return own;
         });
-        for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
         check_same(found, expected);
         seconds *= 2;
         const std::uint64_t of_slow = std::exchange(loaded[static_cast<std::size_t>(slow)], count);

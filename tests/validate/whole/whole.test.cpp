@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "support/attempts.hpp"
+#include "support/machine.hpp"
 #include "support/run_support.hpp"
-#include "support/sanitized.hpp"
 
 using namespace detp;
 using namespace detp::support;

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "support/csv_answer.hpp"

@@ -15,8 +15,6 @@
 namespace detp::support {
 namespace {
 
-using support::ScratchFolder;
-
 /// The definition of a hit (validate/cli/README.md), coded as simply as possible.
 bool crosses(const sim::Ray& ray, const sim::Disc& disc, bool front_facing) {
   const double slope = glm::dot(ray.direction, disc.normal);
@@ -72,9 +70,7 @@ std::vector<std::string> sorted_rows(const std::string& csv) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE(
-      "--form changes the prediction beside the counts, not the counts: the published one is that of model at the "
-      "run's k") {
+  TEST_CASE("--form changes the prediction and not the counts: the published one is that of model at the run's k") {
     const std::string numbers = " --rays 5000 --samples 4000 --disc-radius 0.02 --scene-side 2 --technique ";
     const auto ask = [&](const std::string& rest) { return result_of("run" + numbers + rest); };
     const Json published = ask("sphere-cache --ratio 0.65 --form published");
@@ -160,8 +156,7 @@ TEST_SUITE("end to end") {
     CHECK("disc,hits,irradiance\n" + without == written(""));
   }
 
-  TEST_CASE(
-      "photons of a ray file: their rays may be apart, pairs have the file's numbers, errors are of whole photons") {
+  TEST_CASE("photons of a ray file: their rays may be apart, pairs have the file's numbers, errors are of photons") {
     const ScratchFolder folder;
     const std::string discs = folder.file("discs.csv", "x,y,z,nx,ny,nz,radius\n0,0,0,0,0,1,1\n");
     std::string together = "ox,oy,oz,dx,dy,dz,photon\n";
