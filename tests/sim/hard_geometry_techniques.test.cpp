@@ -127,7 +127,7 @@ HardScene scene_at_faces(std::uint64_t index) {
 
 TEST_SUITE("identity") {
   TEST_CASE("no cull loses a hard ray: all exact techniques find the predicate's hits") {
-    check_all_agree(12, 20, 500, false);
+    check_all_agree(4, 20, 500, false);  // the first of the 200 scenes below
   }
 
   TEST_CASE("rays along the outer faces of the index, or just outside them, hit the discs that touch these faces") {

@@ -129,7 +129,8 @@ TEST_SUITE("identity") {
                  4 * count});
   }
 
-  TEST_CASE("the work between two checks is bounded while any index is built, and a stop request ends it") {
+  TEST_CASE("the work between two checks is bounded while any index is built, and a stop request ends it" *
+            doctest::test_suite("long")) {
     const std::uint64_t count = discs().size();
     const stream::Frame frame(problem());
     check_phase({"tree of boxes",

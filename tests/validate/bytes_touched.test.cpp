@@ -36,7 +36,7 @@ double touched(const sim::Problem& problem, const Candidate& candidate, Counts<d
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("the memory that a search touches: page faults of fresh memory") {
+  TEST_CASE("the memory that a search touches: page faults of fresh memory" * doctest::test_suite("long")) {
     if (support::sanitized) return;         // a sanitizer keeps freed memory apart
     prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0);  // a large page is touched as a whole
     constexpr std::array near{Technique::brute_force, Technique::sphere_cache, Technique::cell_spheres,

@@ -47,7 +47,7 @@ const CellKind face{.side = {1, 1, 0}, .touched = {0, 0, 1}};
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("around discs of mixed radii, sides are those of random discs, to 2 %") {
+  TEST_CASE("around discs of mixed radii, sides are those of random discs, to 2 %" * doctest::test_suite("long")) {
     const std::vector<RadiusClass> mixed{{8, 0.01}, {2, 0.19}, {1, 0.5}, {0.1, 0.3}};
     const std::vector<RadiusClass> giants{{100, 0.02}, {1, 0.98}};
     for (const auto& classes : {mixed, giants}) {

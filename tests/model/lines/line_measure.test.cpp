@@ -130,7 +130,8 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("reference value") {
-  TEST_CASE("the share of lines through both spheres agrees with that of circles cut in strips") {
+  TEST_CASE("the share of lines through both spheres agrees with that of circles cut in strips" *
+            doctest::test_suite("long")) {
     for (const double b : {0.05, 0.4, 1.0, 2.5})
       for (const double c : {0.3, 0.97, 1.7, 9.0}) {
         INFO("b ", b, ", c ", c);

@@ -88,7 +88,8 @@ std::vector<EstimatorRecord> of_photons() {
 }  // namespace
 
 TEST_SUITE("estimators") {
-  TEST_CASE("even light: each estimator is unbiased, and its stated error is the one across seeds") {
+  TEST_CASE("even light: each estimator is unbiased, and its stated error is the one across seeds" *
+            doctest::test_suite("long")) {
     const Mesh mesh = floor_and_wall();
     const auto discs = discs_on_floor(false);
     constexpr int seeds = 40;

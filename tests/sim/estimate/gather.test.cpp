@@ -113,7 +113,8 @@ TEST_SUITE("gather") {
     CHECK(none.upper_bound[0] == unbounded);
   }
 
-  TEST_CASE("paths are those of the reference, and the same bytes on any number of threads") {
+  TEST_CASE("paths are those of the reference, and the same bytes on any number of threads" *
+            doctest::test_suite("long")) {
     const Scene scene = open_scene({.name = "@cornell", .samples = {}});
     std::vector<Disc> discs = discs_by_area(scene, 70);
     std::vector<Sample> samples;

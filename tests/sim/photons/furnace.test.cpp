@@ -340,7 +340,7 @@ TEST_SUITE("known answer") {
     CHECK(balance.surfaces[1].expected == doctest::Approx(0.6 * balance.surfaces[1].arriving));
   }
 
-  TEST_CASE("long paths have all their light, and no photon of them is cut") {
+  TEST_CASE("long paths have all their light, and no photon of them is cut" * doctest::test_suite("long")) {
     for (const auto& [bound_albedo, photons] :
          {std::pair{0.5, 3000.0}, {0.99, 1000.0}, {0.999, 1000.0}, {0.9999, 200.0}}) {
       const double albedo = bound_albedo;

@@ -61,7 +61,8 @@ void check_sound(const Scene& scene, const std::vector<Ray>& rays) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("there are `count` rays and those up to the end of the last photon, all valid, and power × photons = 1") {
+  TEST_CASE("there are `count` rays and those up to the end of the last photon, all valid, and power × photons = 1" *
+            doctest::test_suite("long")) {
     for (const char* name : {"@tree", "@tree-coarse", "@courtyard", "@cornell", "@caustic", "@interior"}) {
       CAPTURE(name);
       const Scene scene = open_scene({.name = name, .samples = {}});

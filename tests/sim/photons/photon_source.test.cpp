@@ -72,7 +72,7 @@ void compare_blocks(double kept, Counting counting) {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("photons by number are photon_paths, byte for byte") {
+  TEST_CASE("photons by number are photon_paths, byte for byte" * doctest::test_suite("long")) {
     for (const double kept : {0.0, 2000.0, 1e9}) {  // rays
       set_memory_limit(16 * 72 * kept + 1e6);
       compare_blocks(kept, Counting::ahead);
@@ -83,7 +83,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("limit") {
-  TEST_CASE("rays counted as they are read are traced block by block") {
+  TEST_CASE("rays counted as they are read are traced block by block" * doctest::test_suite("long")) {
     const Scene scene = open_scene({.name = "@cornell", .samples = {}});
     const PhotonSource source(scene, 1'000'000, 3, caster_for(scene), {}, nullptr, Counting::as_read);
     CHECK(source.size() == 1'000'000);
@@ -182,7 +182,7 @@ TEST_SUITE("photon shares") {
     CHECK(photon_shares(std::vector<std::uint64_t>{5, 1000}, 100) == std::vector<double>{1, 0});
   }
 
-  TEST_CASE("a stream has the same powers and the same ledger as paths in memory") {
+  TEST_CASE("a stream has the same powers and the same ledger as paths in memory" * doctest::test_suite("long")) {
     for (const char* name : {"@cornell", "@tree"})
       for (const std::uint64_t count : {50, 3000, 20'000}) {
         const Scene scene = open_scene({.name = name, .samples = {}});

@@ -116,8 +116,8 @@ double landed(const Paths& paths) {
 }  // namespace
 
 TEST_SUITE("missed light") {
-  TEST_CASE(
-      "what backward paths find and what they miss is all light: glass, a mirror, gloss with some diffuse light") {
+  TEST_CASE("what backward paths find and what they miss is all light: glass, a mirror, gloss with some diffuse light" *
+            doctest::test_suite("long")) {
     for (const Scene& scene : {glass_slab(), mirror(std::numeric_limits<double>::infinity(), 0), mirror(40, 0.3)}) {
       INFO("scene.mesh.triangles.size() ", scene.mesh.triangles.size(), ", scene.mesh.materials.all[1].diffuse ",
            scene.mesh.materials.all[1].diffuse);

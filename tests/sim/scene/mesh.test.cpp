@@ -92,7 +92,7 @@ TEST_SUITE("known answer") {
     CHECK(largest > 0);
   }
 
-  TEST_CASE("trees and courtyard: up is found whichever way they are turned") {
+  TEST_CASE("trees and courtyard: up is found whichever way they are turned" * doctest::test_suite("long")) {
     for (const char* scene : {"@tree", "@tree-coarse", "@courtyard"}) {
       const Mesh mesh = open_scene({.name = scene, .samples = {}}).mesh;
       for (const auto& [name_of_up, up] : named_ups) {

@@ -136,7 +136,7 @@ Scene open_family(std::string_view family, const std::string& seed) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("each family has another scene for each seed, with samples and light") {
+  TEST_CASE("each family has another scene for each seed, with samples and light" * doctest::test_suite("long")) {
     for (const families::Family& family : families::all_families()) {
       CAPTURE(family.name);
       std::set<std::size_t> counts;

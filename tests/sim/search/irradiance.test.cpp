@@ -169,7 +169,8 @@ TEST_SUITE("standard error of irradiance") {
     }
   }
 
-  TEST_CASE("Extreme powers have the errors of ordinary ones, scaled, by every technique and in blocks") {
+  TEST_CASE("Extreme powers have the errors of ordinary ones, scaled, by every technique and in blocks" *
+            doctest::test_suite("long")) {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 60, 0.5, 3);
     std::vector<Ray> rays = LineField(enclosing_sphere(discs), 4).lines(0, 3000);
     const std::vector<std::uint64_t> photons = few_rays_each(rays.size());

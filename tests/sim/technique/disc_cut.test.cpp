@@ -101,7 +101,7 @@ TEST_SUITE("identity") {
     for (const std::size_t parts : {1, 2, 3, 16}) check_parts(discs, parts, 0.01);
   }
 
-  TEST_CASE("discs beyond the sample: parts differ by a few per cent") {
+  TEST_CASE("discs beyond the sample: parts differ by a few per cent" * doctest::test_suite("long")) {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 1'200'000, 0.01, 3);
     REQUIRE(discs.size() > 2 * DiscCut::most_sampled);
     check_parts(discs, 5, 0.01);

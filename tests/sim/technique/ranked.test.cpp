@@ -124,7 +124,8 @@ StreamOptions options_of(bool pairs) {
 }  // namespace
 
 TEST_SUITE("ranks") {
-  TEST_CASE("any number of ranks finds the bytes of one process: lines, four techniques") {
+  TEST_CASE("any number of ranks finds the bytes of one process: lines, four techniques" *
+            doctest::test_suite("long")) {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20, 0.1, 3);
     const UnequalLines lines(enclosing_sphere(discs), 1'700'000);  // 52 blocks of photons
     for (std::size_t i = 0; i < techniques.size(); ++i) {
@@ -139,7 +140,7 @@ TEST_SUITE("ranks") {
     }
   }
 
-  TEST_CASE("any number of ranks finds the bytes of one process: photon paths") {
+  TEST_CASE("any number of ranks finds the bytes of one process: photon paths" * doctest::test_suite("long")) {
     const Scene scene = open_scene({"@cornell", 200, 1, {}, {}});
     std::vector<Disc> discs;
     for (const Sample& sample : scene.samples) discs.push_back({sample.position, sample.normal, 0.05});
@@ -160,7 +161,8 @@ TEST_SUITE("ranks") {
     }
   }
 
-  TEST_CASE("ranks that share the discs find the bytes of one process: four techniques, lines and photon paths") {
+  TEST_CASE("ranks that share the discs find the bytes of one process: four techniques, lines and photon paths" *
+            doctest::test_suite("long")) {
     std::vector<Disc> discs = uniform_discs(Body::cube, 2, 60, 0.1, 3);
     for (std::size_t i = 0; i < discs.size(); i += 3) discs[i].radius = 0.02;
     const UnequalLines lines(enclosing_sphere(discs), 300'000);
@@ -191,7 +193,8 @@ TEST_SUITE("ranks") {
     CHECK_THROWS_AS(std::rethrow_exception(refused[0]), std::invalid_argument);
   }
 
-  TEST_CASE("discs that are not in memory are searched in parts, on any number of ranks, with the same bytes") {
+  TEST_CASE("discs that are not in memory are searched in parts, on any number of ranks, with the same bytes" *
+            doctest::test_suite("long")) {
     std::vector<Disc> discs = uniform_discs(Body::cube, 2, 30'000, 0.02, 3);
     for (std::size_t i = 0; i < discs.size(); i += 3) discs[i].radius = 0.04;
     const DiscsElsewhere elsewhere(discs);
@@ -229,7 +232,8 @@ TEST_SUITE("ranks") {
     CHECK_THROWS_AS(static_cast<void>(run_on_ranks(discs, lines, techniques[0], options, one)), std::length_error);
   }
 
-  TEST_CASE("discs that are shared anew, because no ray meets half of them, find the same bytes") {
+  TEST_CASE("discs that are shared anew, because no ray meets half of them, find the same bytes" *
+            doctest::test_suite("long")) {
     std::vector<Disc> discs = uniform_discs(Body::cube, 2, 4000, 0.05, 3);
     const UnequalLines lines(enclosing_sphere(discs), 2'200'000);
     const std::vector<Disc> near = discs;
@@ -290,7 +294,8 @@ TEST_SUITE("ranks") {
     }
   }
 
-  TEST_CASE("ranks of unequal speed find the bytes of one process, and the slow one has less to do") {
+  TEST_CASE("ranks of unequal speed find the bytes of one process, and the slow one has less to do" *
+            doctest::test_suite("long")) {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20, 0.1, 3);
     const Sphere sphere = enclosing_sphere(discs);
     constexpr std::uint64_t count = 64 << 15;

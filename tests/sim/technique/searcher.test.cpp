@@ -180,7 +180,8 @@ TEST_SUITE("searcher") {
     CHECK(whole != searcher.search(view, scratch, {.standard_error = true}).standard_error);
   }
 
-  TEST_CASE("A view is read in pieces; results are those of all rays at once, errors have the ray's number") {
+  TEST_CASE("A view is read in pieces; results are those of all rays at once, errors have the ray's number" *
+            doctest::test_suite("long")) {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20, 0.15, 3);
     std::vector<Ray> rays = rays_of(5, 450'000);
     std::vector<std::uint64_t> photons;

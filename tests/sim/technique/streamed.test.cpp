@@ -78,7 +78,8 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("sums of many discs over blocks of photons are the same on any threads and by both engines") {
+  TEST_CASE("sums of many discs over blocks of photons are the same on any threads and by both engines" *
+            doctest::test_suite("long")) {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20'000, 0.02, 3);
     REQUIRE(discs.size() > 1U << 14);  // a thread has at least so many
     const std::uint64_t count = 300'000;

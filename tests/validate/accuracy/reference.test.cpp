@@ -62,7 +62,8 @@ TEST_SUITE("references in files") {
     }
   }
 
-  TEST_CASE("a reference of a scene with mirrors, whose samples do not count, is read again") {
+  TEST_CASE("a reference of a scene with mirrors, whose samples do not count, is read again" *
+            doctest::test_suite("long")) {
     const ReferencePath file;
     const sim::Scene scene = sim::open_scene({.name = "@caustic", .samples = {}});
     ReferenceOptions options = quick();

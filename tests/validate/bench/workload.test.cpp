@@ -167,7 +167,8 @@ TEST_SUITE("known answer") {
     for (const BenchWorkload& one : set.workloads) CHECK((one.samples > 0 && one.samples <= 1e4));
   }
 
-  TEST_CASE("families have the same workloads for a seed, two scenes of each, others for another seed") {
+  TEST_CASE("families have the same workloads for a seed, two scenes of each, others for another seed" *
+            doctest::test_suite("long")) {
     const auto workloads = family_workloads(3);
     CHECK(workloads.size() == 84);
     CHECK(values_of(workloads, &BenchWorkload::scene).size() == 12);

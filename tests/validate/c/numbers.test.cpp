@@ -150,7 +150,7 @@ TEST_SUITE("c interface") {
     CHECK(detp_run_look(nullptr, &view, &error) == DETP_INVALID);
   }
 
-  TEST_CASE("every question of the command can be asked, and is answered as JSON") {
+  TEST_CASE("every question of the command can be asked, and is answered as JSON" * doctest::test_suite("long")) {
     const char* const words[] = {"model",         "--samples", "1000",         "--rays", "100",
                                  "--disc-radius", "0.02",      "--scene-side", "2"};
     char* json = nullptr;

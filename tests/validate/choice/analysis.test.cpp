@@ -44,7 +44,8 @@ struct Scene {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("the best is the fastest measured, not predicted; the regret compares the predicted choice with it") {
+  TEST_CASE("the best is the fastest measured, not predicted; the regret compares the predicted choice with it" *
+            doctest::test_suite("long")) {
     const Scene scene(10'000, 10'000);  // 10⁸ tests by brute force
     const auto ranking = scene.wrong_ranking();
     REQUIRE(ranking.front().candidate.technique == Technique::brute_force);

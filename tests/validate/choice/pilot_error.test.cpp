@@ -147,7 +147,8 @@ void search_sparse(const std::string& mesh, std::uint64_t seed, Coverage& covera
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("where few rays reach the discs, nine of ten counts are within two stated errors; no wrong is exact") {
+  TEST_CASE("where few rays reach the discs, nine of ten counts are within two stated errors; no wrong is exact" *
+            doctest::test_suite("long")) {
     Coverage coverage;
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
       search_sparse(support::tiny_object(seed), seed, coverage);

@@ -189,7 +189,7 @@ Estimate mean_of(ReplicateMaker& maker, const AccuracySetting& setting, const Ch
 }  // namespace
 
 TEST_SUITE("claims about errors") {
-  TEST_CASE("no claim about errors is refuted; mutated formulas are") {
+  TEST_CASE("no claim about errors is refuted; mutated formulas are" * doctest::test_suite("long")) {
     Experiment experiment;
     experiment.workload = cube_workload(3e5, 100, 0.1, 1, 3);
     const auto findings = accuracy_findings(experiment);

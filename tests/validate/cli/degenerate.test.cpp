@@ -97,7 +97,7 @@ std::vector<std::filesystem::path> meshes_in(const std::string& folder) {
 }  // namespace
 
 TEST_SUITE("bad input") {
-  TEST_CASE("scene and choose answer in finite numbers for degenerate rays and discs") {
+  TEST_CASE("scene and choose answer in finite numbers for degenerate rays and discs" * doctest::test_suite("long")) {
     const ScratchFolder folder;
     const auto rays = ray_files(folder);
     for (const File& discs : disc_files(folder))

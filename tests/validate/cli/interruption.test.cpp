@@ -157,7 +157,7 @@ TEST_SUITE("end to end") {
     }));
   }
 
-  TEST_CASE("an output that nobody reads ends with the time limit, and with a signal") {
+  TEST_CASE("an output that nobody reads ends with the time limit, and with a signal" * doctest::test_suite("long")) {
     const support::ScratchFolder folder;
     const std::string unopened = folder.path("unopened");
     const std::string unread = folder.path("unread");

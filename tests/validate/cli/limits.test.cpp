@@ -93,7 +93,8 @@ TEST_SUITE("end to end") {
     CHECK(refused > 0);
   }
 
-  TEST_CASE("an allocation that fails nevertheless is reported as out of memory, by Embree too") {
+  TEST_CASE("an allocation that fails nevertheless is reported as out of memory, by Embree too" *
+            doctest::test_suite("long")) {
     if (sanitized) return;
     // The allocation fails in the technique, while the scene is read or sorted, and in Embree.
     const double addresses = addresses_of_little_work() + 96e6;

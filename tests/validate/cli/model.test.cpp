@@ -102,7 +102,8 @@ TEST_SUITE("known answer") {
       }
   }
 
-  TEST_CASE("k is the form's own by default; its best stop is reported, and used on request") {
+  TEST_CASE("k is the form's own by default; its best stop is reported, and used on request" *
+            doctest::test_suite("long")) {
     for (const std::string form : {"published", "corrected"}) {
       CAPTURE(form);
       const std::string line = model_command + "--ratio 0.65 --form " + form;

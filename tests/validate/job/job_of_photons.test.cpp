@@ -169,12 +169,14 @@ TEST_SUITE("scenes") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("light inside of a glass ball reaches its discs, and is lost if paths end at surfaces") {
+  TEST_CASE("light inside of a glass ball reaches its discs, and is lost if paths end at surfaces" *
+            doctest::test_suite("long")) {
     CHECK(over_landings("@caustic", 0.0025, "auto", false) == doctest::Approx(1).epsilon(0.1));
     CHECK(over_landings("@caustic", 0.0025, "none", false) < 0.8);
   }
 
-  TEST_CASE("paths to the second intersection, as in the paper, also reach discs behind sheets") {
+  TEST_CASE("paths to the second intersection, as in the paper, also reach discs behind sheets" *
+            doctest::test_suite("long")) {
     CHECK(over_landings("@cornell", 0.01, "none", false, true) > 1.1 * over_landings("@cornell", 0.01, "auto", false));
     validate::JobRequest lines;
     lines.scene = "@cornell";
@@ -201,7 +203,7 @@ TEST_SUITE("known answer") {
     CHECK(length("concave-surfaces", "@tree-coarse") > length("none", "@tree-coarse"));
   }
 
-  TEST_CASE("whether paths go on depends neither on the radius nor on samples and seed") {
+  TEST_CASE("whether paths go on depends neither on the radius nor on samples and seed" * doctest::test_suite("long")) {
     for (const char* scene : {"@cornell", "@tree-coarse"}) {
       std::vector<double> values;
       for (const double radius : {0.002, 0.02, 0.2})
@@ -285,7 +287,7 @@ TEST_SUITE("known answer") {
     CHECK(warnings_of({{}, {.centre = {5, 5, 5}}, {.centre = {5, 6, 5}}}).empty());
   }
 
-  TEST_CASE("built-in scenes give no warning") {
+  TEST_CASE("built-in scenes give no warning" * doctest::test_suite("long")) {
     for (const std::string name :
          {"@uniform", "@tree", "@tree-coarse", "@courtyard", "@cornell", "@caustic", "@interior"}) {
       CAPTURE(name);

@@ -40,7 +40,8 @@ std::string two_floors(const ScratchFolder& folder) {
 }  // namespace
 
 TEST_SUITE("accuracy") {
-  TEST_CASE("an answer has setting, errors, seconds and a command; running the command gives about the noise") {
+  TEST_CASE("an answer has setting, errors, seconds and a command; running the command gives about the noise" *
+            doctest::test_suite("long")) {
     const Json json = result_of("accuracy @cornell --target-noise 10% --estimators disc,triangle-hits --check");
     const Json& answer = json["answer"];
     CHECK(answer["noise"].get<double>() == doctest::Approx(0.1).epsilon(1e-3));
@@ -65,7 +66,8 @@ TEST_SUITE("accuracy") {
     CHECK(run["rays"].get<double>() == doctest::Approx(answer["rays"].get<double>()).epsilon(0.01));
   }
 
-  TEST_CASE("the same seed gives the same answer, not run to check; whatever else the machine does") {
+  TEST_CASE("the same seed gives the same answer, not run to check; whatever else the machine does" *
+            doctest::test_suite("long")) {
     const std::string command = "accuracy @cornell --target-noise 10% --effort quick";
     const Json json = result_of(command);
     const Json one = result_of(command + " --threads 2");
@@ -178,7 +180,8 @@ TEST_SUITE("long") {
 }
 
 TEST_SUITE("the samples in question") {
-  TEST_CASE("errors are those of the discs of a file: in the middle of a wall there is no bias") {
+  TEST_CASE("errors are those of the discs of a file: in the middle of a wall there is no bias" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     const Json json = result_of("accuracy @furnace --estimators disc --discs " + discs_in_the_middle(folder));
     CHECK(json["reference"]["kind"] == "backward paths");
@@ -193,7 +196,8 @@ TEST_SUITE("the samples in question") {
     CHECK(all["answer"]["mean_bias"].get<double>() < 0);
   }
 
-  TEST_CASE("materials and groups limit what is judged; unknown ones are refused with those that there are") {
+  TEST_CASE("materials and groups limit what is judged; unknown ones are refused with those that there are" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     const std::string floors = two_floors(folder);
     const std::string command =

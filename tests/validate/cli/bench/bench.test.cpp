@@ -123,7 +123,8 @@ TEST_SUITE("end to end") {
                    {"bench missing.obj", "missing.obj"}});
   }
 
-  TEST_CASE("bench --regret that is stopped shows its results so far and ends with code 3") {
+  TEST_CASE("bench --regret that is stopped shows its results so far and ends with code 3" *
+            doctest::test_suite("long")) {
     const Finished finished = detp("bench --regret --time-limit 0.2 --format json");
     CHECK(finished.code == 3);
     CHECK(finished.err.empty());

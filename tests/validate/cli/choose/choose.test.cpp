@@ -28,7 +28,7 @@ void check_ranked(const Json& json) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE("a workload without a scene is ranked by predicted time") {
+  TEST_CASE("a workload without a scene is ranked by predicted time" * doctest::test_suite("long")) {
     for (const std::string workload :
          {"--rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2", "--rays 1 --samples 1 --disc-radius 1e-3",
           "--rays 1e18 --samples 1e18 --disc-radius 1e-9", "--rays 1e6 --samples 10 --disc-radius 50%",
@@ -62,7 +62,8 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("with --front-facing, choose, model and run predict half of the hits, and as many tests") {
+  TEST_CASE("with --front-facing, choose, model and run predict half of the hits, and as many tests" *
+            doctest::test_suite("long")) {
     const std::string numbers = "--rays 2000 --samples 1000 --disc-radius 0.05 --scene-side 2";
     const std::string scene = "@uniform --rays 2000 --samples 1000 --disc-radius 2%";
     const auto check_half = [](const Json& both, const Json& fronts) {
@@ -116,7 +117,7 @@ TEST_SUITE("end to end") {
     CHECK(json.at("choice").at("predicted_seconds").get<double>() == doctest::Approx(0.01));
   }
 
-  TEST_CASE("a disabled technique is neither ranked nor run") {
+  TEST_CASE("a disabled technique is neither ranked nor run" * doctest::test_suite("long")) {
     const auto technique_of = [](const std::string& arguments) {
       return result_of("choose " + arguments).at("choice").at("technique").get<std::string>();
     };
@@ -134,7 +135,8 @@ TEST_SUITE("end to end") {
           "leaves no technique"}});
   }
 
-  TEST_CASE("--technique names the only techniques that are considered, with every rigor") {
+  TEST_CASE("--technique names the only techniques that are considered, with every rigor" *
+            doctest::test_suite("long")) {
     const std::string scene = "@uniform --samples 2000 --rays 2000 --disc-radius 2%";
     const auto techniques_of = [&](const std::string& arguments) {
       std::set<std::string> techniques;

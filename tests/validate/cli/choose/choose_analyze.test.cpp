@@ -10,7 +10,7 @@
 namespace detp::support {
 
 TEST_SUITE("end to end") {
-  TEST_CASE("--analyze adds counts, measured times and the regret") {
+  TEST_CASE("--analyze adds counts, measured times and the regret" * doctest::test_suite("long")) {
     const std::string line = "choose @cornell --rays 1000 --analyze";
     const Json json = result_of(line);
     CHECK(json.at("regret").get<double>() >= 0);
@@ -52,7 +52,8 @@ TEST_SUITE("end to end") {
       CHECK_FALSE(has_no_number(detp(line + " --format " + format).out));
   }
 
-  TEST_CASE("with --analyze the measured winner is the choice, and the prediction's errors are reported") {
+  TEST_CASE("with --analyze the measured winner is the choice, and the prediction's errors are reported" *
+            doctest::test_suite("long")) {
     // With these unit costs, brute force has by far the shortest predicted time.
     const std::string line =
         "choose @uniform --samples 5000 --rays 5000 --disc-radius 1% --analyze --threads 1 "
@@ -102,7 +103,7 @@ TEST_SUITE("end to end") {
     CHECK_FALSE(json.json().contains("regret"));
   }
 
-  TEST_CASE("structural rigor predicts from rays of the same kind, lines or segments") {
+  TEST_CASE("structural rigor predicts from rays of the same kind, lines or segments" * doctest::test_suite("long")) {
     const std::string uniform = "choose @uniform --samples 2000 --rays 20000 --disc-radius 2%";
     const Json structural = result_of(uniform + " --rigor structural --analyze");
     CHECK(structural.at("rigor") == "structural");
@@ -168,7 +169,8 @@ TEST_SUITE("end to end") {
     CHECK(result_of("run" + scene + " --threads 2 --technique grid").at("threads") == 2);
   }
 
-  TEST_CASE("--engine plain chooses among plain searches, by closed forms and costs of its own, and runs them") {
+  TEST_CASE("--engine plain chooses among plain searches, by closed forms and costs of its own, and runs them" *
+            doctest::test_suite("long")) {
     const std::string scene = " @uniform --samples 2000 --rays 20000 --disc-radius 2% --calibration none";
     const Json simd = result_of("choose" + scene);
     const Json plain = result_of("choose" + scene + " --engine plain --analyze --threads 1");

@@ -94,7 +94,8 @@ TEST_SUITE("bad input") {
     CHECK(std::system(("cat " + files.discs + " | " + run + "/dev/stdin | grep -q hits").c_str()) == 0);
   }
 
-  TEST_CASE("a stored calibration is not replaced by a result, but by one that calibrate saves by that name") {
+  TEST_CASE("a stored calibration is not replaced by a result, but by one that calibrate saves by that name" *
+            doctest::test_suite("long")) {
     const UsersFiles files;
     std::filesystem::create_directories(files.folder.path("cache/detp"));
     const std::string stored = files.folder.path("cache/detp/calibration.json");
@@ -145,7 +146,7 @@ TEST_SUITE("bad input") {
     CHECK(content_of(folder.path("a.txt")).starts_with("scene,"));
   }
 
-  TEST_CASE("--checkpoint without --resume replaces checkpoints only") {
+  TEST_CASE("--checkpoint without --resume replaces checkpoints only" * doctest::test_suite("long")) {
     const ScratchFolder folder;
     const std::string run = "run @cornell --target-noise 20% --rays 100k --calibration none ";
     const std::string validate = "validate --rays 1k --samples 100 --disc-radius 4% --until-relative-error 50% ";

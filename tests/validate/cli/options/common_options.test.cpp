@@ -80,7 +80,7 @@ TEST_SUITE("end to end") {
     CHECK(detp("--help all").code == 0);
   }
 
-  TEST_CASE("--help fields explains every key of a command's JSON") {
+  TEST_CASE("--help fields explains every key of a command's JSON" * doctest::test_suite("long")) {
     const std::string numbers = " --samples 1000 --rays 2000 --disc-radius 0.02 --scene-side 2";
     for (const std::string& line :
          {"model" + numbers, "choose" + numbers, std::string("choose @cornell --rays 2000 --ranks 2"),

@@ -222,7 +222,8 @@ TEST_SUITE("end to end") {
     CHECK(run_and_read(data.ply, "--technique octree") == run_and_read(data.csv, "--technique grid"));
   }
 
-  TEST_CASE("lines and photon paths: every technique writes the bytes that brute force writes") {
+  TEST_CASE("lines and photon paths: every technique writes the bytes that brute force writes" *
+            doctest::test_suite("long")) {
     check_all_agree(words("run @uniform --samples 2000 --rays 2000"), best_techniques());
     check_all_agree(words("run @cornell --rays 3000"), best_techniques());
     check_all_agree(words("run @cornell --rays 2000 --front-facing --disc-radius 8% --samples 1500"),
@@ -295,7 +296,8 @@ TEST_SUITE("end to end") {
     CHECK(more.find("predicted / counted") != std::string::npos);
   }
 
-  TEST_CASE("the plain engine finds the hits of the float kernels, and the result names it") {
+  TEST_CASE("the plain engine finds the hits of the float kernels, and the result names it" *
+            doctest::test_suite("long")) {
     for (const std::string technique :
          {"brute-force", "sphere-cache --ratio 0.6", "cell-spheres --depth 3", "sphere-tree --fan-out 4 --leaf 16"}) {
       CAPTURE(technique);
@@ -350,7 +352,8 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("reading the scene and making its rays have two numbers; reading rays from a file is reading") {
+  TEST_CASE("reading the scene and making its rays have two numbers; reading rays from a file is reading" *
+            doctest::test_suite("long")) {
     const support::ScratchFolder folder;
     const std::string rays = folder.path("rays.csv");
     CHECK(in_attempts(5, [&] {

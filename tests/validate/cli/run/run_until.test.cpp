@@ -33,7 +33,8 @@ TEST_SUITE("run until") {
     CHECK(content_of(two) == content_of(one));
   }
 
-  TEST_CASE("standard errors beside a noise: wherever two photons hit, and together as large as the noise") {
+  TEST_CASE("standard errors beside a noise: wherever two photons hit, and together as large as the noise" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     const std::string file = folder.path("discs.csv");
     const std::string command =
@@ -107,7 +108,8 @@ TEST_SUITE("run until") {
     CHECK(text.out.find("first stage") == std::string::npos);
   }
 
-  TEST_CASE("an error below the bias is not reached, with exit code 3 and a smaller radius if there is one") {
+  TEST_CASE("an error below the bias is not reached, with exit code 3 and a smaller radius if there is one" *
+            doctest::test_suite("long")) {
     const Finished found = detp("run @furnace --target-error 3% --format json");
     CHECK(found.code == 3);
     const Json json = Json::parse(found.out);
@@ -151,8 +153,8 @@ TEST_SUITE("run until") {
 }
 
 TEST_SUITE("end to end") {
-  TEST_CASE(
-      "a run of many photon paths that is stopped has the irradiance by those that were searched, and its error") {
+  TEST_CASE("a run of many photon paths that is stopped has the irradiance by those that were searched, and its error" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     const std::string file = folder.path("irradiance.csv");
     const std::string line = "run @cornell --threads 2 --technique box-tree --leaf 8 --fan-out 8 --rays ";

@@ -44,7 +44,8 @@ Found found(const ScratchFolder& folder, const std::string& line, bool pairs) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE("discs of a file that do not fit in memory are searched in parts: the same bytes, and the limit holds") {
+  TEST_CASE("discs of a file that do not fit in memory are searched in parts: the same bytes, and the limit holds" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     std::vector<Disc> discs = uniform_discs(Body::cube, 2, 600'000, 0.01, 3);
     for (std::size_t i = 0; i < discs.size(); i += 4) discs[i].radius = 0.02;
@@ -72,7 +73,8 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("discs in memory whose index does not fit are searched in parts, however few rays there are") {
+  TEST_CASE("discs in memory whose index does not fit are searched in parts, however few rays there are" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     const std::string line = "run --samples 300000 --scene-side 1 --disc-radius 0.003 --rays 100000 --technique octree";
     const Found all = found(folder, line, false);
@@ -141,7 +143,8 @@ double pages_of(const std::string& line) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE("a repeated search touches no memory for the first time, and has the arrays of the search before") {
+  TEST_CASE("a repeated search touches no memory for the first time, and has the arrays of the search before" *
+            doctest::test_suite("long")) {
     if (sanitized) return;  // a sanitizer keeps freed memory apart
     for (const char* how : {"--technique box-tree --fan-out 4 --leaf 16", "--technique sphere-cache --ratio 0.6",
                             "--technique octree --depth 6", "--technique grid --cells 40"}) {
