@@ -8,8 +8,8 @@
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/photon_source.hpp"
-#include "detp/sim/ranks/mpi_ranks.hpp"
 #include "detp/sim/ranked/ranked.hpp"
+#include "detp/sim/ranks/mpi_ranks.hpp"
 
 using namespace detp;
 using namespace detp::sim;

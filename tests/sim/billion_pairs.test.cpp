@@ -11,9 +11,10 @@
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "support/float_candidates.hpp"
+#include "support/candidates.hpp"
 #include "support/hard_scene.hpp"
-#include "support/in_parallel.hpp"
+#include "support/machine.hpp"
+#include "support/same_bytes.hpp"
 
 using namespace detp;
 using namespace detp::sim;
@@ -60,8 +61,7 @@ struct Tried {
 /// Compares the hits of all techniques with the canonical predicate's decision of every pair.
 void compare(const HardScene& scene, bool front, Tried& tried) {
   const Problem problem = make_problem(scene.rays, scene.discs, front);
-  const Outcome expected =
-      run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .engine = Engine::plain});
+  const Outcome expected = truth_of(problem);
   tried.pairs += static_cast<double>(scene.rays.size()) * static_cast<double>(scene.discs.size());
   tried.hits += expected.total_hits;
   for (const Candidate& candidate : all_exact()) tried.add(run(problem, candidate, {.pairs = true}), expected);

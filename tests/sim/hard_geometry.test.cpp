@@ -7,8 +7,8 @@
 #include "detp/sim/geometry/error_band.hpp"
 #include "detp/sim/geometry/predicates.hpp"
 #include "support/exact_geometry.hpp"
-#include "support/hard_geometry.hpp"
-#include "support/in_parallel.hpp"
+#include "support/hard_scene.hpp"
+#include "support/machine.hpp"
 
 using namespace detp::sim;
 using namespace detp::support;

@@ -10,20 +10,16 @@
 #include <vector>
 
 #include "detp/sim/technique/technique.hpp"
-#include "support/float_candidates.hpp"
+#include "support/candidates.hpp"
 #include "support/hard_scene.hpp"
-#include "support/in_parallel.hpp"
+#include "support/machine.hpp"
+#include "support/same_bytes.hpp"
 
 using namespace detp;
 using namespace detp::sim;
 using namespace detp::support;
 
 namespace {
-
-/// Decides every pair by the canonical predicate.
-Outcome truth_of(const Problem& problem) {
-  return run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .engine = Engine::plain});
-}
 
 const std::vector<Candidate>& hard_candidates() {
   static const std::vector<Candidate> list = [] {
@@ -131,7 +127,7 @@ HardScene scene_at_faces(std::uint64_t index) {
 
 TEST_SUITE("identity") {
   TEST_CASE("no cull loses a hard ray: all exact techniques find the predicate's hits") {
-    check_all_agree(12, 20, 500, false);
+    check_all_agree(4, 20, 500, false);  // the first of the 200 scenes below
   }
 
   TEST_CASE("rays along the outer faces of the index, or just outside them, hit the discs that touch these faces") {

@@ -28,8 +28,6 @@
 namespace detp::sim {
 namespace {
 
-using support::LoggedWork;
-
 constexpr std::uint64_t block = StopCheck::most_work;
 
 /// Some long work, and the minimum amount of work that it must report.
@@ -42,20 +40,11 @@ struct Phase {
 /// Checks that the work between two checks is bounded, and that a stop request half way throws Stopped there.
 void check_phase(const Phase& phase) {
   CAPTURE(phase.name);
-  std::uint64_t total = 0;
-  {
-    const LoggedWork logged;
-    phase.run({});
-    total = logged.total();
-    CHECK(logged.bounded());
-    CHECK(total + block > phase.least_work);
-  }
-  std::stop_source source;
-  const LoggedWork logged([&](std::uint64_t done) {
-    if (done >= total / 2) source.request_stop();
-  });
-  CHECK_THROWS_AS(phase.run(source.get_token()), Stopped);
-  CHECK(logged.total() < total / 2 + 10 * block);
+  const double total = support::bounded_work_of([&] { phase.run({}); });
+  CHECK(total + block > static_cast<double>(phase.least_work));
+  const support::StopAfterWork stop(total / 2);
+  CHECK_THROWS_AS(phase.run(stop.token()), Stopped);
+  CHECK(stop.total() < total / 2 + 10.0 * block);
 }
 
 void use(const auto&) {}
@@ -140,7 +129,8 @@ TEST_SUITE("identity") {
                  4 * count});
   }
 
-  TEST_CASE("the work between two checks is bounded while any index is built, and a stop request ends it") {
+  TEST_CASE("the work between two checks is bounded while any index is built, and a stop request ends it" *
+            doctest::test_suite("long")) {
     const std::uint64_t count = discs().size();
     const stream::Frame frame(problem());
     check_phase({"tree of boxes",
@@ -197,12 +187,9 @@ TEST_SUITE("identity") {
 TEST_SUITE("known answer") {
   TEST_CASE("stopped tracing says how many of the rays had been traced") {
     use(tree());  // opened before work is logged
-    std::stop_source source;
-    const LoggedWork logged([&](std::uint64_t done) {
-      if (done > 100 * block) source.request_stop();
-    });
+    const support::StopAfterWork stop(100.0 * block);
     try {
-      use(photon_paths(tree(), 200'000, 1, source.get_token()).rays);
+      use(photon_paths(tree(), 200'000, 1, stop.token()).rays);
       FAIL("it went on");
     } catch (const Stopped& stopped) {
       CHECK(stopped.progress().of == 200'000);

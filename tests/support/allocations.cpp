@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "sanitized.hpp"
+#include "machine.hpp"
 
 namespace {
 

@@ -165,8 +165,7 @@ inline Finished detp_in(double addresses, const std::string& line) { return Proc
 /// The JSON result of a command that must succeed.
 inline Json result_of(const Arguments& arguments) {
   const Finished finished = detp(arguments + words("--format json"));
-  CAPTURE(line_of(arguments));
-  CAPTURE(finished.err);
+  INFO("line_of(arguments) ", line_of(arguments), ", finished.err ", finished.err);
   REQUIRE(finished.code == 0);
   return finished.json();
 }
@@ -190,8 +189,7 @@ inline void check_refused(const std::vector<Refusal>& refusals) {
     for (std::size_t j = i; j < std::min(i + at_a_time, refusals.size()); ++j)
       if (i % at_a_time == 0) processes[j] = std::make_unique<Process>(refusals[j].arguments);
     const Finished finished = processes[i]->finish();
-    CAPTURE(line_of(refusals[i].arguments));
-    CAPTURE(finished.err);
+    INFO("line_of(refusals[i].arguments) ", line_of(refusals[i].arguments), ", finished.err ", finished.err);
     CHECK(finished.signal == 0);
     CHECK(finished.code == 2);
     CHECK(finished.out.empty());

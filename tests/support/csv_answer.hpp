@@ -58,8 +58,7 @@ inline std::vector<CsvRow> csv_rows(const std::string& csv) {
 /// The CSV result of a command that must succeed.
 inline std::vector<CsvRow> csv_of(const Arguments& arguments) {
   const Finished finished = detp(arguments + words("--format csv"));
-  CAPTURE(line_of(arguments));
-  CAPTURE(finished.err);
+  INFO("line_of(arguments) ", line_of(arguments), ", finished.err ", finished.err);
   REQUIRE(finished.code == 0);
   return csv_rows(finished.out);
 }

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <doctest/doctest.h>
+
+#include <stop_token>
+
 #include "detp/sim/base/stop_check.hpp"
 
 namespace detp::support {
@@ -24,5 +28,31 @@ class LoggedWork {
  private:
   sim::WorkLog log_;
 };
+
+/// Requests a stop as soon as so much work is logged.
+class StopAfterWork {
+ public:
+  explicit StopAfterWork(double work)
+      : log_([this, work](std::uint64_t done) {
+          if (static_cast<double>(done) >= work) source_.request_stop();
+        }) {}
+
+  [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+  [[nodiscard]] double total() const { return static_cast<double>(log_.total()); }
+  [[nodiscard]] bool bounded() const { return log_.bounded(); }
+
+ private:
+  std::stop_source source_;
+  LoggedWork log_;
+};
+
+/// The work of a call, which must be bounded between two checks.
+template <class Call>
+double bounded_work_of(const Call& call) {
+  const LoggedWork logged;
+  call();
+  CHECK(logged.bounded());
+  return static_cast<double>(logged.total());
+}
 
 }  // namespace detp::support

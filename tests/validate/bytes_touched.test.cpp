@@ -12,7 +12,7 @@
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "support/sanitized.hpp"
+#include "support/machine.hpp"
 
 namespace detp {
 namespace {
@@ -36,7 +36,7 @@ double touched(const sim::Problem& problem, const Candidate& candidate, Counts<d
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("the memory that a search touches: page faults of fresh memory") {
+  TEST_CASE("the memory that a search touches: page faults of fresh memory" * doctest::test_suite("long")) {
     if (support::sanitized) return;         // a sanitizer keeps freed memory apart
     prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0);  // a large page is touched as a whole
     constexpr std::array near{Technique::brute_force, Technique::sphere_cache, Technique::cell_spheres,
@@ -54,20 +54,16 @@ TEST_SUITE("reference value") {
         const Candidate candidate = default_candidate(technique);
         Counts<double> counts;
         const double found = touched(problem, candidate, counts);
-        CAPTURE(name(technique));
-        CAPTURE(size.discs);
-        CAPTURE(found);
+        INFO("name(technique) ", name(technique), ", size.discs ", size.discs, ", found ", found);
         const double expected = bytes_touched(counts, candidate, Engine::simd);
         return std::max(expected, 1e6) / std::max(found, 1e6);  // below a megabyte nothing matters
       };
       for (const Technique technique : near) {
-        CAPTURE(name(technique));
-        CAPTURE(size.discs);
+        INFO("name(technique) ", name(technique), ", size.discs ", size.discs);
         CHECK(ratio(technique) == doctest::Approx(1).epsilon(0.25));
       }
       for (const Technique technique : rougher) {
-        CAPTURE(name(technique));
-        CAPTURE(size.discs);
+        INFO("name(technique) ", name(technique), ", size.discs ", size.discs);
         const double one = ratio(technique);
         CHECK(one > 0.5);
         CHECK(one < 2);

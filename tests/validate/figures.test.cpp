@@ -48,8 +48,7 @@ TEST_SUITE("figures") {
       const std::string text = source_text(page);
       if (text.find("<!-- figures ") == std::string::npos) continue;
       for (const Figure& figure : figures_of(text, published)) {
-        CAPTURE(page);
-        CAPTURE(figure.statistic);
+        INFO("page ", page, ", figure.statistic ", figure.statistic);
         CHECK(figure.shown == figure.computed);
       }
     }

@@ -41,8 +41,7 @@ struct Setting {
 
 /// Checks that predicted / counted is within 3 % of 1, and that a prediction 6 % larger or smaller would fail.
 void check_close(const std::string& what, double predicted, double counted) {
-  CAPTURE(what);
-  CAPTURE(predicted / counted);
+  INFO("what ", what, ", predicted / counted ", predicted / counted);
   CHECK(std::abs(predicted / counted - 1) < 0.03);
   CHECK(std::abs(1.06 * predicted / counted - 1) > 0.03);
   CHECK(std::abs(0.94 * predicted / counted - 1) > 0.03);
@@ -66,9 +65,7 @@ TEST_SUITE("identity") {
         const sim::IndexSize size = inspect_octree(problem, {chosen.depth}, variant,
                                                    [&](const sim::IndexNode& node) { leaves += node.leaf ? 1 : 0; });
         const model::Cells cells = model::index_cells(setting.workload, std::ldexp(1.0, chosen.depth), insertion);
-        CAPTURE(chosen.dimension);
-        CAPTURE(chosen.depth);
-        CAPTURE(chosen.x);
+        INFO("chosen.dimension ", chosen.dimension, ", chosen.depth ", chosen.depth, ", chosen.x ", chosen.x);
         check_close("references", setting.workload.samples * cells.overlapped, static_cast<double>(size.references));
         check_close("leaves", model::occupied_cells(setting.workload, cells), leaves);
         check_close("octree bytes", model::octree_bytes(setting.workload, {chosen.depth}, variant),
@@ -94,17 +91,14 @@ TEST_SUITE("statistical") {
         return !sim::ClippedRay(line).inside(cube).empty();
       }));
       const double per_line = 1 / model::index_cells(setting.workload, 1).crossing;
-      CAPTURE(chosen.dimension);
-      CAPTURE(chosen.depth);
-      CAPTURE(chosen.x);
+      INFO("chosen.dimension ", chosen.dimension, ", chosen.depth ", chosen.depth, ", chosen.x ", chosen.x);
       for (const Insertion insertion : {Insertion::exact, Insertion::bounding_box})
         for (const bool mailboxing : {false, true}) {
           const IndexVariant variant{insertion, mailboxing};
           const OctreeParameters octree{chosen.depth, mailboxing ? Traversal::restart : Traversal::top_down};
           const Counts<double> counted = as_expected(support::search_octree(problem, octree, variant).counts);
           const Counts<double> expected = model::octree_counts(setting.workload, octree, variant);
-          CAPTURE(mailboxing);
-          CAPTURE((insertion == Insertion::exact));
+          INFO("mailboxing ", mailboxing, ", (insertion == Insertion::exact) ", (insertion == Insertion::exact));
           check_close("disc tests", per_line * expected.disc_tests, counted.disc_tests);
           check_close("nodes", per_line * expected.nodes, counted.nodes);
         }

@@ -14,31 +14,10 @@ namespace detp::validate {
 namespace {
 
 using sim::StopCheck;
-using support::LoggedWork;
+using support::bounded_work_of;
+using support::StopAfterWork;
 
 constexpr std::uint64_t block = StopCheck::most_work;
-
-class StopAfterWork {
- public:
-  explicit StopAfterWork(std::uint64_t work)
-      : log_([this, work](std::uint64_t done) {
-          if (done >= work) source_.request_stop();
-        }) {}
-
-  [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
-  [[nodiscard]] const LoggedWork& log() const { return log_; }
-
- private:
-  std::stop_source source_;
-  LoggedWork log_;
-};
-
-std::uint64_t work_of(const std::function<void()>& run) {
-  const LoggedWork logged;
-  run();
-  CHECK(logged.bounded());
-  return logged.total();
-}
 
 Experiment small(const std::stop_token& stop) {
   return {.workload = cube_workload(32'000, 2000, 0.03, 2), .discs = {}, .seed = 5, .stop = stop};
@@ -55,13 +34,12 @@ TEST_SUITE("identity") {
           Candidate{Technique::sphere_tree, SphereTreeParameters{8, 4}},
           Candidate{Technique::box_tree, BoxTreeParameters{4, 16}}, Candidate{Technique::octree, OctreeParameters{4}},
           Candidate{Technique::grid, GridParameters{30}}}) {
-      CAPTURE(name(candidate.technique));
-      CAPTURE(describe(candidate));
-      const std::uint64_t work = work_of([&] { static_cast<void>(structural_counts(discs, 1e5, candidate)); });
-      CHECK(work > discs.size());
+      INFO("name(candidate.technique) ", name(candidate.technique), ", describe(candidate) ", describe(candidate));
+      const double work = bounded_work_of([&] { static_cast<void>(structural_counts(discs, 1e5, candidate)); });
+      CHECK(work > static_cast<double>(discs.size()));
       const StopAfterWork stop(work / 2);
       CHECK_THROWS_AS(static_cast<void>(structural_counts(discs, 1e5, candidate, stop.token())), sim::Stopped);
-      CHECK(stop.log().total() < work / 2 + 4 * block);
+      CHECK(stop.total() < work / 2 + 4.0 * block);
     }
   }
 
@@ -70,11 +48,11 @@ TEST_SUITE("identity") {
     request.scene = "@uniform";
     request.samples = 100'000;
     request.rays = 400'000;
-    const std::uint64_t work = work_of([&] { static_cast<void>(make_job(request)); });
+    const double work = bounded_work_of([&] { static_cast<void>(make_job(request)); });
     // Units of work: 4 for each sample (made, checked) and 2 for each ray (made, checked).
     CHECK(work >= 4 * 100'000 + 2 * 400'000);
     for (const double share : {0.1, 0.5, 0.9}) {
-      const StopAfterWork stop(static_cast<std::uint64_t>(share * static_cast<double>(work)));
+      const StopAfterWork stop(share * work);
       CHECK_THROWS_AS(static_cast<void>(make_job(request, stop.token())), sim::Stopped);
     }
   }
@@ -108,7 +86,7 @@ TEST_SUITE("known answer") {
 /// These experiments take too long for the quick suites.
 TEST_SUITE("statistical") {
   TEST_CASE("experiments and races do bounded work between stop checks") {
-    work_of([] { static_cast<void>(all_findings(small({}))); });
+    bounded_work_of([] { static_cast<void>(all_findings(small({}))); });
     const std::vector<BenchWorkload> workloads{{.scene = "@uniform",
                                                 .discs = "@uniform",
                                                 .field = sim::Field::isotropic,
@@ -116,16 +94,16 @@ TEST_SUITE("statistical") {
                                                 .disc_radius = Length{0.02},
                                                 .rays = 20'000}};
     const BenchOptions options{.race = {.repeats = 1}, .embree_modes = {EmbreeMode{}}};
-    work_of([&] { static_cast<void>(run_bench(workloads, options)); });
+    bounded_work_of([&] { static_cast<void>(run_bench(workloads, options)); });
   }
 
   TEST_CASE("stopped experiments return the findings of those done, and their number") {
     sim::Progress all;
     std::size_t findings = 0;
-    const std::uint64_t work = work_of([&] { findings = all_findings(small({}), {}, &all).size(); });
+    const double work = bounded_work_of([&] { findings = all_findings(small({}), {}, &all).size(); });
     CHECK(all.done == all.of);
     CHECK(all.unit == "experiments");
-    const StopAfterWork stop(work * 9 / 10);
+    const StopAfterWork stop(0.9 * work);
     sim::Progress some;
     const auto found = all_findings(small(stop.token()), {}, &some);
     CHECK(some.of == all.of);

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -33,8 +32,7 @@ TEST_SUITE("known answer") {
     for (const double disc : {1e-3, 0.1, 0.5, 3.0})
       for (int parts = 1; parts <= 400; ++parts) {
         const Cells cells = index_cells(in_box({1, 0, 1}, disc), parts);
-        CAPTURE(disc);
-        CAPTURE(parts);
+        INFO("disc ", disc, ", parts ", parts);
         CHECK(cells.overlapped >= 1);
         CHECK(cells.overlapped <= cells.count());
         CHECK(grid_counts(in_box({1, 0, 1}, disc), {parts}).references >= 100);

@@ -7,54 +7,17 @@
 #include <limits>
 #include <stdexcept>
 
-#include "support/high_precision.hpp"
 #include "support/not_a_length.hpp"
-#include "support/random_workload.hpp"
 
 using namespace detp;
 using namespace detp::model;
 using doctest::Contains;
-using support::Exact;
-using support::relative_error;
 
 namespace {
 
 const Workload some = {.rays = 1000, .samples = 100, .disc_radius = 0.01, .sphere_radius = 1, .box = {1, 1, 1}};
 
-/// Halves the side while the half is at least as wide as a disc.
-int depth_by_halving(double disc, double side) {
-  int depth = 0;
-  for (Exact cell = Exact{side} / 2; cell >= 2 * Exact{disc}; cell /= 2) ++depth;
-  return depth;
-}
-
 }  // namespace
-
-TEST_SUITE("reference value") {
-  TEST_CASE("eqs 20 to 22 hold within 1e-15, on 20 000 random workloads") {
-    support::RandomNumbers random(42);
-    double worst = 0;
-    int wrong_depths = 0;
-    for (int run = 0; run < 20'000; ++run) {
-      const auto [w, unused] = support::random_workload(random);
-      const double side = w.sphere_radius * random.uniform(0.5, 2);
-      const double disc_test = random.log_uniform(1e-9, 1e3);
-      const int depth = published::octree_depth({w.disc_radius}, side);
-      wrong_depths += depth != depth_by_halving(w.disc_radius, side);
-      const Exact cells = support::power(2, depth);
-      const Exact time = Exact{disc_test} * w.rays * w.samples / (cells * cells);
-      for (const double error :
-           {relative_error(published::cells_per_line(depth), cells),
-            relative_error(published::discs_per_cell(w.samples, depth), w.samples / (cells * cells * cells)),
-            relative_error(published::tests_per_line(w.samples, depth), w.samples / (cells * cells)),
-            relative_error(published::balanced_octree_time(w, depth, disc_test), time),
-            relative_error(published::octree_time(w, depth, disc_test), time * depth)})
-        worst = std::max(worst, error);
-    }
-    CHECK(wrong_depths == 0);
-    CHECK_MESSAGE(worst < 1e-15, "largest relative error seen: ", worst);
-  }
-}
 
 TEST_SUITE("known answer") {
   TEST_CASE("cells as wide as a disc are accepted; if one ulp narrower, the next larger ones are used") {

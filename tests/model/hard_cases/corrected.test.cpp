@@ -3,14 +3,16 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "detp/model/rank/predict.hpp"
-#include "draw.hpp"
+#include "run.hpp"
 
 using namespace detp;
 using namespace detp::hard_cases;
+using detp::support::relative_error;
 
 namespace {
 
@@ -59,6 +61,18 @@ void require_counts(std::uint64_t index) {
   }
 }
 
+constexpr double largest = std::numeric_limits<double>::max();
+constexpr double least = std::numeric_limits<double>::denorm_min();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The ledger of a formula that is wrong by `factor`, on a few random inputs.
+Ledger of_square_times(double factor) {
+  return on_random_inputs(99, 100, [&](Draw& draw, Ledger& ledger) {
+    const double x = draw.log_uniform(1e-100, 1e100);
+    ledger.compare("square", x * x * factor, Exact{x} * x, [&] { return fmt::format("x {:a}", x); });
+  });
+}
+
 }  // namespace
 
 TEST_SUITE("corrected") {
@@ -70,5 +84,69 @@ TEST_SUITE("corrected") {
 TEST_SUITE("hard-cases") {
   TEST_CASE("a million predictions, seven candidates on each of 170 000 workloads: every count finite, not negative") {
     tbb::parallel_for(std::uint64_t{0}, std::uint64_t{170'000}, require_counts);
+  }
+}
+
+TEST_SUITE("negative control") {
+  TEST_CASE("a formula off by 1e-12 is refused on every input, and reported; a right one is accepted") {
+    const Ledger wrong = of_square_times(1 + 1e-12);
+    CHECK(wrong.failures() == 100);
+    CHECK(wrong.entries().at("square").inputs == 100);
+    CHECK(wrong.entries().at("square").worst == doctest::Approx(1e-12).epsilon(1e-3));
+    for (const char* part : {"100 values are off", "square off by 1e-12", "at x 0x1.", "expected ", "got "})
+      CHECK(wrong.report().find(part) != std::string::npos);
+    CHECK(of_square_times(1).failures() == 0);
+  }
+
+  TEST_CASE("a wrong whole number is refused") {
+    Ledger ledger;
+    ledger.compare_whole("k", 7, false, [] { return "here"; });
+    CHECK(ledger.failures() == 1);
+    CHECK(ledger.report().find("k off by 1 at here: got 7") != std::string::npos);
+  }
+
+  TEST_CASE("an exception of a check on another thread reaches the test") {
+    CHECK_THROWS_AS((void)on_random_inputs(99, 10, [](Draw&, Ledger&) { throw std::domain_error("here"); }),
+                    std::domain_error);
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("any value that is not finite has an infinite error") {
+    for (const double bad : {infinity, -infinity, std::nan("")}) {
+      CHECK(relative_error(bad, 1) == infinity);
+      CHECK(relative_error(bad, pow(Exact{10}, 400)) == infinity);
+    }
+  }
+
+  TEST_CASE("beyond the range of doubles the largest one is right, and the next smaller one is an ulp off") {
+    const Exact beyond = pow(Exact{10}, 400);
+    CHECK(relative_error(largest, beyond) == 0);
+    CHECK(relative_error(-largest, -beyond) == 0);
+    CHECK(relative_error(std::nextafter(largest, 0.0), beyond) == doctest::Approx(0x1p-53));
+    CHECK(relative_error(-largest, beyond) == 2);
+  }
+
+  TEST_CASE("below the normal doubles an error of one spacing is allowed, and no more") {
+    CHECK(relative_error(0, Exact{least} / 2) == 0);
+    CHECK(relative_error(least, Exact{least} / 2) == 0);
+    CHECK(relative_error(3 * least, Exact{least}) == 2);
+    CHECK(relative_error(1e-310, Exact{1.001e-310}) == doctest::Approx(1e-3).epsilon(0.01));
+    CHECK(relative_error(1e-307, Exact{1e-307} * (1 + Exact{1e-12})) == doctest::Approx(1e-12).epsilon(1e-3));
+  }
+
+  TEST_CASE("the reference's own logarithm, exponential, root and power have 95 right digits") {
+    for (std::uint64_t index = 0; index < 40; ++index) {
+      Draw draw(98, index);
+      const Exact x = draw.anywhere();
+      const Exact y = draw.uniform(-2000, 2000);
+      CHECK(abs(detp::support::log_of(x) - log(x)) < 1e-95 * (1 + abs(log(x))));
+      CHECK(abs(detp::support::exp_of(y) / exp(y) - 1) < 1e-92);
+      const Exact small = draw.uniform(-0.025, 0.025);
+      CHECK(abs(detp::support::log_next_to_1(small) / log(1 + small) - 1) < 1e-92);
+      CHECK(abs(pow(detp::support::root_of(x), 2) / x - 1) < 1e-95);
+      CHECK(abs(pow(detp::support::cube_root(x), 3) / x - 1) < 1e-95);
+      CHECK(abs(detp::support::power(x, 7) / (x * x * x * x * x * x * x) - 1) < 1e-95);
+    }
   }
 }

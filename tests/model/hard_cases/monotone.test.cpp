@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "detp/model/accuracy/estimate_error.hpp"
 #include "detp/model/hierarchy/cell_spheres.hpp"

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/rank/choose.hpp"
@@ -79,9 +78,7 @@ TEST_SUITE("identity") {
       for (const double disc : {1e-4, 0.01, 0.1})
         for (const double samples : {500.0, 1e4, 1e6}) {
           const Workload w = cube_workload(1e6, samples, disc, 2, dimension);
-          CAPTURE(dimension);
-          CAPTURE(disc);
-          CAPTURE(samples);
+          INFO("dimension ", dimension, ", disc ", disc, ", samples ", samples);
           Counts<double> smaller = counts_of(w, {5, 2});
           for (const int leaf : {3, 4, 5, 6, 7, 9, 12, 16, 17, 40, 63, 64, 65, 100, 128, 256}) {
             const Counts<double> counts = counts_of(w, {5, leaf});
@@ -106,8 +103,7 @@ TEST_SUITE("identity") {
         Counts<double> fewer = counts_of(w, {2, leaf});
         for (int fan_out = 3; fan_out <= 16; ++fan_out) {
           const Counts<double> counts = counts_of(w, {fan_out, leaf});
-          CAPTURE(dimension);
-          CAPTURE(fan_out);
+          INFO("dimension ", dimension, ", fan_out ", fan_out);
           CHECK(counts.listed < 1.03 * fewer.listed);
           CHECK(counts.listed > 0.6 * fewer.listed);
           CHECK(counts.cull_tests == Approx(fewer.cull_tests).epsilon(0.25));

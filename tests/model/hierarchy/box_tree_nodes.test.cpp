@@ -4,12 +4,16 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "detp/model/hierarchy/box_tree.hpp"
+#include "detp/model/hierarchy/box_tree_boxes.hpp"
+#include "detp/model/hierarchy/box_tree_expected.hpp"
 #include "detp/model/lines/line_measure.hpp"
 
 using namespace detp;
 using doctest::Approx;
+using namespace detp::model::box_tree;
 
 namespace {
 
@@ -33,6 +37,24 @@ Workload in_cubes(double extent, double disc_radius) {
   single.volume[3] = 8 * std::pow(extent, 3);
   w.nodes.push_back(single);
   return w;
+}
+
+struct Total {
+  double inner = 0;
+  double leaves = 0;
+  double discs = 0;
+};
+
+Total total(int dimension, double samples, double radius, int leaf) {
+  Total sum;
+  for (const LevelNodes& level : expected_binary_tree(dimension, samples, radius, leaf)) {
+    sum.inner += level.inner.count;
+    for (const Leaves& leaves : level.leaves) {
+      sum.leaves += leaves.count;
+      sum.discs += leaves.count * leaves.discs;
+    }
+  }
+  return sum;
 }
 
 }  // namespace
@@ -116,5 +138,63 @@ TEST_SUITE("bad input") {
     refused([](Workload& w) { w.nodes[3].volume[3] = -1; });
     refused([](Workload& w) { w.ray_density = 0; });
     refused([](Workload& w) { w.hit_ratio = NAN; });
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("the two halves of a cell share its samples, and each kind of cell has its share of them") {
+    for (const int dimension : {2, 3}) {
+      const auto& kinds = cell_kinds(dimension, 1e5);
+      for (std::size_t i = 0; i < kinds.size(); ++i) {
+        const CellKind& cell = kinds[i];
+        if (cell.child[0] == 0 || cell.cells == 0) continue;
+        INFO("dimension ", dimension, ", i ", i);
+        CHECK(cell.part[0] + cell.part[1] == Approx(1).epsilon(1e-15));
+        CHECK(kinds[cell.child[0]].share == Approx(cell.part[0] * cell.share).epsilon(1e-15));
+        CHECK(kinds[cell.child[1]].share == Approx(cell.part[1] * cell.share).epsilon(1e-15));
+        for (const auto child : cell.child) CHECK(child > i);
+      }
+    }
+  }
+
+  TEST_CASE("cells of one size hold all samples: in a cube, and on its faces") {
+    for (const CellKind& cell : cell_kinds(3, 1e5)) CHECK(cell.cells * cell.share == 1);
+    // Halved six times across each axis, 64 cells a side: cells on faces, at edges and at corners.
+    double share = 0;
+    for (const CellKind& cell : cell_kinds(2, 1e5))
+      if (cell.side[0] == 0x1p-6 && cell.side[1] == 0x1p-6 && (cell.side[2] == 0 || cell.side[2] == 0x1p-6))
+        share += cell.cells * cell.share;
+    CHECK(share == Approx(1).epsilon(1e-12));
+  }
+
+  TEST_CASE("the curve's smallest cells have 1/64 of the side below 8192 samples, else 1/1024") {
+    for (const int dimension : {2, 3})
+      for (const auto& [samples, side] : {std::pair{8191.0, 0x1p-6}, {8192.0, 0x1p-10}})
+        for (const CellKind& cell : cell_kinds(dimension, samples)) {
+          const bool smallest = cell.side[0] == side && cell.side[1] == side;
+          CHECK(cell.side[0] >= side);
+          if (cell.last) CHECK(smallest);
+          if (smallest && dimension == 3 && cell.side[2] == side) CHECK(cell.last);
+        }
+  }
+
+  TEST_CASE("the leaves hold all samples, and there is one more of them than of inner nodes") {
+    for (const int dimension : {2, 3})
+      for (const double samples : {300.0, 5000.0, 3e5})
+        for (const double radius : {1e-4, 1e-2, 0.1})
+          for (const int leaf : {1, 2, 7, 31, 64, 100}) {
+            const Total sum = total(dimension, samples, radius, leaf);
+            INFO("dimension ", dimension, ", samples ", samples, ", radius ", radius, ", leaf ", leaf);
+            CHECK(sum.discs == Approx(samples).epsilon(0.03));
+            CHECK(sum.leaves == Approx(sum.inner + 1).epsilon(0.05));
+          }
+  }
+}
+
+TEST_SUITE("limit") {
+  TEST_CASE("each point has its leaf if leaves hold one; of discs larger than the cube, 64 share a leaf") {
+    CHECK(total(3, 1e4, 1e-9, 1).leaves == Approx(1e4).epsilon(0.03));
+    const Total large = total(3, 1e4, 10, 1);
+    CHECK(large.discs / large.leaves == Approx(48).epsilon(0.35));
   }
 }

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -65,9 +64,7 @@ TEST_SUITE("reference value") {
         const std::int64_t stop = published::best_stop(question.workload, question.costs, {ratio});
         double least = support::infinity;
         for (std::int64_t k = 1; k <= last; ++k) least = std::min(least, time(question, ratio, k));
-        CAPTURE(ratio);
-        CAPTURE(stop);
-        CAPTURE(last);
+        INFO("ratio ", ratio, ", stop ", stop, ", last ", last);
         CHECK(stop >= 1);
         CHECK(stop <= last);
         CHECK(time(question, ratio, stop) == Approx(least).epsilon(1e-12));

@@ -3,14 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <vector>
 
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/sphere_cache/sphere_count.hpp"
 #include "detp/model/sphere_cache/step_pieces.hpp"
-#include "support/in_parallel.hpp"
+#include "support/machine.hpp"
 #include "support/not_a_length.hpp"
 #include "support/random_workload.hpp"
 #include "support/workloads.hpp"
@@ -89,8 +88,7 @@ std::vector<double> above_grids(int many, std::uint64_t seed) {
   auto above = support::in_parallel(all.size(), [&](std::size_t i) {
     const Question& question = all[i];
     const BestRatio best = best_ratio_and_stop(question.workload, question.costs);
-    CAPTURE(best.ratio);
-    CAPTURE(best.spheres);
+    INFO("best.ratio ", best.ratio, ", best.spheres ", best.spheres);
     CHECK(best.time == Approx(time(question, best.ratio, best.spheres)).epsilon(1e-12));
     CHECK(best.spheres <= corrected_count(question.workload, best.ratio));
     return best.time / least_on_grids(question, 1500) - 1;

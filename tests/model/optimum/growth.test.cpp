@@ -10,8 +10,10 @@
 
 #include "detp/model/disc_index/disc_index_published.hpp"
 #include "detp/model/optimum/best_published_ratio.hpp"
+#include "detp/model/optimum/optimal_ratio.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "detp/model/sphere_cache/sphere_count.hpp"
+#include "support/not_a_length.hpp"
 
 using namespace detp;
 using namespace detp::model;
@@ -124,6 +126,12 @@ TEST_SUITE("known answer") {
       CHECK(shrinking(Technique::octree, SampleOrder::lebesgue).logarithms == (form == Form::published ? 1 : 0));
     }
   }
+
+  TEST_CASE("two thirds for volumes, 1/sqrt(e) for surfaces, a half for curves") {
+    CHECK(model::optimal_ratio(3) == doctest::Approx(2.0 / 3).epsilon(1e-15));
+    CHECK(model::optimal_ratio(2) == doctest::Approx(std::exp(-0.5)).epsilon(1e-15));
+    CHECK(model::optimal_ratio(1) == doctest::Approx(0.5).epsilon(1e-15));
+  }
 }
 
 TEST_SUITE("bad input") {
@@ -139,5 +147,20 @@ TEST_SUITE("bad input") {
   TEST_CASE("a dimension outside the range from surfaces to volumes is refused") {
     for (const double bad : {1.9, 3.1, std::numeric_limits<double>::quiet_NaN()})
       CHECK_THROWS_WITH_AS((void)growth({.dimension = bad}), doctest::Contains("from 2 to 3"), std::invalid_argument);
+  }
+
+  TEST_CASE("an invalid dimension is refused by name") {
+    for (const double bad : support::not_a_dimension)
+      CHECK_THROWS_WITH_AS((void)model::optimal_ratio(bad), doctest::Contains("dimension"), std::invalid_argument);
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("no other ratio gives a smaller value of the sum that it minimises") {
+    for (const double dimension : {2.5, 3.0}) {
+      const auto time = [&](double q) { return 1 / (q * q * (1 - std::pow(q, dimension - 2))); };
+      const double best = time(model::optimal_ratio(dimension));
+      for (double q = 0.01; q < 1; q += 0.001) CHECK(time(q) >= best * (1 - 1e-14));
+    }
   }
 }

@@ -98,11 +98,8 @@ void check_against_exhaustive(int runs, std::uint64_t seed) {
     const CostTable table = random_cost_table(random);
     const auto ranking = rank(w, table);
     const double fastest = ranking.front().time.total();
-    CAPTURE(seed);
-    CAPTURE(run);
-    CAPTURE(title(ranking.front().candidate));
-    CAPTURE(w.rays);
-    CAPTURE(w.samples);
+    INFO("seed ", seed, ", run ", run, ", title(ranking.front().candidate) ", title(ranking.front().candidate),
+         ", w.rays ", w.rays, ", w.samples ", w.samples);
     CHECK(fastest <= 1.01 * exhaustive(w, table));
     for (const Prediction& ranked : ranking)
       if (!ranked.tuned) CHECK(best_of(ranked.candidate.technique, w, table)->time.total() >= fastest / 1.01);

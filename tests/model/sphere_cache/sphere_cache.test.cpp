@@ -153,8 +153,7 @@ TEST_SUITE("identity") {
   TEST_CASE("more spheres than 4096 are grouped within 0.3 % of the sum over all") {
     for (const double dimension : {2.0, 3.0})
       for (const std::int64_t k : {4097, 8192, 20'000, 50'000}) {
-        CAPTURE(dimension);
-        CAPTURE(k);
+        INFO("dimension ", dimension, ", k ", k);
         const Workload w = cube_workload(1e6, 1e5, 0.01, 2, dimension);
         const double ratio = std::exp(std::log(w.disc_radius / w.sphere_radius) / static_cast<double>(k));
         check_close(sphere_cache_counts(w, {ratio, k}), summed(w, {ratio, k}), 0.003);
@@ -194,11 +193,8 @@ TEST_SUITE("known answer") {
       const double d = counted.disc_share * std::sqrt(3.0) / (1 - counted.disc_share);
       const Workload w = cube_workload(1e6, counted.samples, d, 2, counted.dimension);
       const SphereLevel sphere = sphere_levels(w, {counted.ratio, counted.i}, counted.i).back();
-      CAPTURE(counted.dimension);
-      CAPTURE(counted.samples);
-      CAPTURE(counted.disc_share);
-      CAPTURE(counted.ratio);
-      CAPTURE(counted.i);
+      INFO("counted.dimension ", counted.dimension, ", counted.samples ", counted.samples, ", counted.disc_share ",
+           counted.disc_share, ", counted.ratio ", counted.ratio, ", counted.i ", counted.i);
       CHECK(sphere.rebuilds == Approx(counted.rebuilds).epsilon(0.08));
       CHECK(sphere.listed / sphere.rays == Approx(counted.listed_share).epsilon(0.04));
       rebuilds += std::abs(std::log(sphere.rebuilds / counted.rebuilds));

@@ -5,14 +5,18 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "support/high_precision.hpp"
+#include "detp/model/sphere_cache/listed_rays.hpp"
+#include "detp/model/sphere_cache/sample_spread.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "support/not_a_length.hpp"
 #include "support/random_workload.hpp"
+#include "support/workloads.hpp"
 
 using namespace detp;
 using namespace detp::model;
+using doctest::Approx;
 using doctest::Contains;
-using support::Exact;
+using support::typical;
 
 namespace {
 
@@ -24,63 +28,18 @@ struct Case {
 
 std::int64_t count(Form form, const Case& c) { return sphere_count(form, {c.ratio}, {c.disc}, {c.outer}); }
 
-Exact radius(const Case& c, std::int64_t i) { return c.outer * support::power(c.ratio, i); }
-
-/// Corrected: r_k >= d > r_{k+1}.  Published: r_k <= d < r_{k-1}.
-bool right(const Case& c) {
-  const std::int64_t corrected = count(Form::corrected, c);
-  const std::int64_t published = count(Form::published, c);
-  return corrected >= 0 && published >= 1 && radius(c, corrected) >= c.disc && radius(c, corrected + 1) < c.disc &&
-         radius(c, published) <= c.disc && radius(c, published - 1) > c.disc;
-}
-
-/// Checks the case, and the cases with d one ulp larger and smaller.
-int wrong_around(const Case& c) {
-  int wrong = 0;
-  for (const double d : {c.disc, std::nextafter(c.disc, 0.0), std::nextafter(c.disc, c.outer)})
-    if (d < c.outer) wrong += !right({c.ratio, d, c.outer});
-  return wrong;
-}
-
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("r_k >= d > r_{k+1}, and the smallest r_k <= d, in 100 digits on 20 000 random workloads") {
-    support::RandomNumbers random(7);
-    int wrong = 0;
-    for (int run = 0; run < 20'000; ++run) {
-      const auto [w, ratio] = support::random_workload(random);
-      wrong += !right({ratio, w.disc_radius, w.sphere_radius});
+  TEST_CASE("the mean square distance from the centre agrees with samples drawn in a cube and on its faces to 1 %") {
+    for (const auto& [body, dimension] : {std::pair{sim::Body::cube, 3.0}, {sim::Body::cube_faces, 2.0}}) {
+      double mean = 0;
+      const auto discs = sim::uniform_discs(body, 2, 100'000, 0.1, 5);
+      for (const sim::Disc& disc : discs) mean += glm::dot(disc.centre, disc.centre) / 1e5;
+      const double expected = model::mean_square_distance(cube_workload(1, 1e5, 0.1, 2, dimension));
+      CHECK(expected == doctest::Approx(mean).epsilon(0.01));
+      CHECK(1.03 * expected != doctest::Approx(mean).epsilon(0.01));
     }
-    CHECK(wrong == 0);
-  }
-
-  TEST_CASE("near a tie, d = fl(r0 Q^j) and one ulp to either side, the count is right") {
-    support::RandomNumbers random(8);
-    int wrong = 0;
-    for (int run = 0; run < 5'000; ++run) {
-      const double ratio = random.uniform(0.05, 0.99);
-      const double outer = random.log_uniform(1e-3, 1e3);
-      wrong += wrong_around({ratio, outer * std::pow(ratio, static_cast<double>(random.whole(1, 60))), outer});
-    }
-    CHECK(wrong == 0);
-  }
-
-  TEST_CASE("Q next to 1 and millions of spheres: the count is right") {
-    for (const double gap : {0x1p-10, 0x1p-30, 0x1.3p-45, 0x1p-53})
-      for (const double d : {0.9, 0.5, 1e-3, 1e-6, 1e-300}) CHECK(wrong_around({1 - gap, d, 1}) == 0);
-  }
-
-  TEST_CASE("a disc a few ulps smaller than S0 and Q a few ulps below 1: the count is right") {
-    support::RandomNumbers random(10);
-    int wrong = 0;
-    for (int run = 0; run < 5'000; ++run) {
-      const double outer = std::ldexp(1 + random.log_uniform(1e-15, 1), static_cast<int>(random.whole(-1000, 1000)));
-      double disc = outer;
-      for (std::int64_t steps = random.whole(1, 8); steps > 0; --steps) disc = std::nextafter(disc, 0.0);
-      wrong += !right({1 - static_cast<double>(random.whole(1, 4)) * 0x1p-53, disc, outer});
-    }
-    CHECK(wrong == 0);
   }
 }
 
@@ -136,5 +95,95 @@ TEST_SUITE("bad input") {
         CHECK_THROWS_WITH_AS((void)count(form, {0.5, 0.1, bad}), Contains("sphere radius"), std::invalid_argument);
       }
     }
+  }
+
+  TEST_CASE("an invalid radius, ratio or workload is refused by name") {
+    for (const double bad : support::not_a_size) {
+      CHECK_THROWS_WITH_AS((void)rays_through(typical, bad), Contains("sphere radius"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)listed_share(typical, bad, 0.3), Contains("sphere radius"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)listed_share(typical, 0.3, bad), Contains("octaves"), std::invalid_argument);
+    }
+    for (const double bad : support::not_a_length) {
+      Workload w = typical;
+      w.disc_radius = bad;
+      CHECK_THROWS_WITH_AS((void)listed_share(w, 0.3, 0.3), Contains("disc radius"), std::invalid_argument);
+    }
+  }
+
+  TEST_CASE("unsorted: a sphere that is never built, or an invalid radius, has no share") {
+    for (const double bad : support::not_a_length)
+      CHECK_THROWS_WITH_AS((void)unsorted_listed_share(0.2, bad, {{0.4, 20, 0.39}}), Contains("rebuilds of the sphere"),
+                           std::invalid_argument);
+    for (const double bad : support::not_a_size) {
+      CHECK_THROWS_WITH_AS((void)unsorted_listed_share(0.2, 50, {{0.4, 20, bad}}), Contains("reach of the offsets"),
+                           std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)unsorted_listed_share(bad, 9, {{0.4, 2, 0.39}}), Contains("sphere radius"),
+                           std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)unsorted_listed_share(0.2, 50, {{bad, 20, 0.39}}), Contains("sphere radius"),
+                           std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)unsorted_listed_share(0.2, 50, {{0.4, bad, 0.39}}),
+                           Contains("rebuilds of the outer sphere"), std::invalid_argument);
+    }
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("the listed share is from 0 to 1; it is 1 for spheres as small as the disc, or if samples are few") {
+    support::RandomNumbers random(21);
+    for (int run = 0; run < 5000; ++run) {
+      auto [w, ratio] = support::random_workload(random);
+      w.dimension = random.uniform(1, 3);
+      const double octaves = random.log_uniform(1e-9, 6);
+      const double share = listed_share(w, w.sphere_radius * random.log_uniform(1e-8, 1), octaves);
+      REQUIRE(share >= 0);
+      REQUIRE(share <= 1);
+      REQUIRE(listed_share(w, w.disc_radius, octaves) == 1);
+      REQUIRE(listed_share(w, 0.3 * w.disc_radius, octaves) == 1);
+    }
+    const Workload few = cube_workload(1e6, 1, 1e-6, 2);
+    CHECK(listed_share(few, 1e-5, 0.3) == Approx(1).epsilon(0.01));
+  }
+
+  TEST_CASE("spheres of very different size list nearly all their rays, those of similar size fewer") {
+    for (const double dimension : {2.0, 2.5, 3.0}) {
+      const Workload w = cube_workload(1e6, 1e6, 1e-4, 2, dimension);
+      double before = 1;
+      for (const double octaves : {4.0, 2.0, 1.0, 0.6, 0.4, 0.2, 0.1, 0.05, 0.0}) {
+        const double share = listed_share(w, 0.02, octaves);
+        CHECK(share < before);
+        before = share;
+      }
+      CHECK(before > 0.5);
+      CHECK(listed_share(w, 0.02, 4) > 0.99);
+    }
+  }
+
+  TEST_CASE("the listed share is continuous, and does not depend on the unit of length") {
+    support::RandomNumbers random(22);
+    for (int run = 0; run < 2000; ++run) {
+      const double dimension = random.uniform(2, 3);
+      const Workload w = cube_workload(1e6, random.count(10, 1e8), random.log_uniform(1e-4, 0.3), 2, dimension);
+      const double radius = w.disc_radius + (w.sphere_radius - w.disc_radius) * random.uniform(0.001, 0.98);
+      const double octaves = random.uniform(0, 3);
+      const double share = listed_share(w, radius, octaves);
+      REQUIRE(listed_share(w, radius * (1 + 1e-9), octaves) == Approx(share).epsilon(1e-6));
+      REQUIRE(listed_share(w, radius, octaves + 1e-9) == Approx(share).epsilon(1e-6));
+      const Workload scaled = cube_workload(1e6, w.samples, 1e6 * w.disc_radius, 2e6, dimension);
+      REQUIRE(listed_share(scaled, 1e6 * radius, octaves) == Approx(share).epsilon(1e-9));
+    }
+  }
+
+  TEST_CASE("rays through a sphere inside S0 are proportional to its area") {
+    CHECK(rays_through(typical, typical.sphere_radius) == Approx(1e6).epsilon(1e-14));
+    CHECK(rays_through(typical, typical.sphere_radius / 4) == Approx(62'500).epsilon(1e-14));
+    CHECK(rays_through(typical, 0) == 0);
+  }
+
+  TEST_CASE("unsorted: spheres with the same centre as all around them list all their rays") {
+    CHECK(unsorted_listed_share(0.2, 50, {}) == 1);
+    CHECK(unsorted_listed_share(0.2, 50, {{0.4, 50, 0.39}, {0.8, 50, 0.79}}) == 1);
+    const double one = unsorted_listed_share(0.2, 50, {{0.4, 20, 0.39}});
+    CHECK(one < 1);
+    CHECK(unsorted_listed_share(0.2, 50, {{0.4, 20, 0.39}, {0.8, 5, 0.79}}) < one);
   }
 }

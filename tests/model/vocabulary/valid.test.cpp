@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "detp/model/disc_index/index_cells.hpp"
 #include "detp/model/disc_index/disc_index.hpp"
+#include "detp/model/disc_index/index_cells.hpp"
 #include "detp/model/hierarchy/cell_spheres.hpp"
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/optimum/best_published_ratio.hpp"

@@ -2,8 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
+#include <thread>
 #include <vector>
 
+#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/search/sort_pairs.hpp"
 #include "support/work_log.hpp"
 
@@ -53,5 +56,17 @@ TEST_SUITE("known answer") {
     CHECK(std::is_sorted(pairs.begin(), pairs.end()));
     source.request_stop();
     CHECK_FALSE(sort_pairs(pairs, source.get_token()));
+  }
+
+  TEST_CASE("a stopwatch counts time asleep, and restarts after a lap") {
+    const Stopwatch whole;
+    Stopwatch watch;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    const double read = watch.seconds();
+    const double lap = watch.lap();
+    CHECK(read >= 0.005);
+    CHECK(lap >= read);
+    const double after = watch.seconds();
+    CHECK(lap + after <= whole.seconds());
   }
 }

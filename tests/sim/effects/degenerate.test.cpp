@@ -6,11 +6,20 @@
 #include <string>
 #include <vector>
 
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/effects/far_discs.hpp"
 #include "detp/sim/effects/observe.hpp"
+#include "detp/sim/effects/self_shadow.hpp"
+#include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/random.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
+#include "detp/sim/photons/photon_walk.hpp"
 #include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/built_in/mesh_pieces.hpp"
+#include "detp/sim/scene/vertices.hpp"
 
 using namespace detp;
+using namespace detp::sim;
 
 namespace {
 
@@ -105,17 +114,40 @@ void check_finite(const sim::Observed& observed) {
   }
 }
 
+sim::Problem problem_of(const std::vector<sim::Disc>& discs) { return sim::make_problem_without_rays(discs, 1000); }
+
+Scene scene_of(Mesh mesh) {
+  Scene scene;
+  scene.name = "test";
+  scene.mesh = std::move(mesh);
+  scene.samples = samples_at_vertices(scene.mesh, default_crease, scene.notices);
+  for (const glm::dvec3& position : scene.mesh.positions) scene.box.include(position);
+  scene.lights = {{DirectionalLight{{-0.3, -0.8, -0.5}}}};
+  return scene;
+}
+
+Finding shadow_in(const Scene& scene, bool front_facing = true) {
+  return self_shadow(scene, caster_for(scene), front_facing).finding;
+}
+
+/// Floor and two walls that meet in a corner, seen from inside.
+Mesh corner() {
+  Mesh mesh;
+  built_in::add_quad(mesh, {{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}}, 0.1);
+  built_in::add_quad(mesh, {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}, 0.1);
+  built_in::add_quad(mesh, {{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}}, 0.1);
+  return mesh;
+}
+
 }  // namespace
 
 TEST_SUITE("bad input") {
-  TEST_CASE(
-      "degenerate rays and discs give finite evidence and a valid workload, with effects by evidence or by hand") {
+  TEST_CASE("degenerate rays and discs give finite evidence and a valid workload, whatever effects are on") {
     for (const Case& one : degenerate_cases()) {
       CAPTURE(one.name);
       for (const char* effects : {"auto", "all", "none"})
         for (const bool front_facing : {false, true}) {
-          CAPTURE(effects);
-          CAPTURE(front_facing);
+          INFO("effects ", effects, ", front_facing ", front_facing);
           const sim::Problem problem = sim::make_problem(one.rays, one.discs, front_facing);
           check_finite(sim::observe(problem, {}, sim::EffectSelection(effects)));
         }
@@ -135,5 +167,66 @@ TEST_SUITE("bad input") {
       CHECK(b.effects[i].value == doctest::Approx(a.effects[i].value).epsilon(0.02));
       CHECK(a.effects[i].on == b.effects[i].on);
     }
+  }
+
+  TEST_CASE("a stop request ends the search for self shadows") {
+    std::stop_source source;
+    const Scene scene = scene_of(corner());
+    const auto caster = caster_for(scene);
+    source.request_stop();
+    CHECK_THROWS_AS((void)self_shadow(scene, caster, true, source.get_token()), Stopped);
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("discs far outside the central box are counted, the others are near; without them none are far") {
+    auto discs = sim::uniform_discs(sim::Body::cube, 2, 10'000, 0.02, 1);
+    CHECK_FALSE(find_far_discs(problem_of(discs)));
+    discs[10].centre = {0, 500, 0};
+    discs[20].centre = {-500, 0, 0};
+    const auto found = find_far_discs(problem_of(discs));
+    REQUIRE(found);
+    CHECK(found->far == 2);
+    CHECK(found->reach == doctest::Approx(1.8).epsilon(0.03));  // the central 90 % of a side of 2
+    CHECK_FALSE(found->is_near(discs[10]));
+    for (std::size_t i = 0; i < 10; ++i) CHECK(found->is_near(discs[i]));
+  }
+
+  TEST_CASE("a corner shadows its discs; a box seen from outside does not") {
+    const Finding inside = shadow_in(scene_of(corner()));
+    CHECK(inside.value > 0.015);
+    CHECK(inside.standard_error < 0.003);
+    Mesh box;
+    built_in::add_box(box, {0, 0, 0}, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, 0.1);
+    CHECK(shadow_in(scene_of(box)).value == 0.01);
+  }
+
+  TEST_CASE("if both faces count, a ball of glass shadows the discs where light arrives inside") {
+    Mesh ball;
+    ball.materials.all = {{.name = "ball", .diffuse = 0, .glass = 1, .index = 1.5}};
+    built_in::add_ball(ball, {0, 0, 0}, 1, 16);
+    CHECK(shadow_in(scene_of(ball), false).value > 0.3);
+  }
+
+  TEST_CASE("a cloud of small leaves: light through them outweighs shadow") {
+    Mesh leaves;
+    for (std::uint64_t i = 0; i < 3000; ++i) {
+      const auto random = uniform4(1, Stream::samples, 2 * i);
+      const auto turned = uniform4(1, Stream::samples, 2 * i + 1);
+      const glm::dvec3 centre{random[0], random[1], random[2]};
+      const glm::dvec3 first = 0.02 * uniform_direction(turned[0], turned[1]);
+      const glm::dvec3 second = 0.02 * uniform_direction(turned[2], turned[3]);
+      built_in::add_quad(leaves, {{centre, centre + first, centre + first + second, centre + second}}, 0.05);
+    }
+    CHECK(shadow_in(scene_of(leaves), false).value < -0.01);
+  }
+}
+
+TEST_SUITE("limit") {
+  TEST_CASE("of a few discs none is far, unless their centres are more than four diameters apart") {
+    const std::vector<sim::Disc> one{{.radius = 1}};
+    CHECK_FALSE(find_far_discs(problem_of(one)));
+    std::vector<sim::Disc> two{{.radius = 1}, {.centre = {7, 0, 0}, .radius = 1}};
+    CHECK_FALSE(find_far_discs(problem_of(two)));
   }
 }

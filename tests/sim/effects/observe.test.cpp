@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "detp/sim/open/uniform_discs.hpp"
@@ -109,8 +108,7 @@ TEST_SUITE("effects") {
     CHECK(automatic.workload.box == none.box);
   }
 
-  TEST_CASE(
-      "segments and samples on surfaces are found; none leaves lines and a volume, but segments still cost more") {
+  TEST_CASE("segments and samples on surfaces are found; with none on, segments still cost more") {
     const Room room;
     const sim::Problem problem = sim::make_problem(room.rays, room.discs);
     const sim::Observed found = sim::observe(problem);

@@ -88,7 +88,8 @@ std::vector<EstimatorRecord> of_photons() {
 }  // namespace
 
 TEST_SUITE("estimators") {
-  TEST_CASE("even light: each estimator is unbiased, and its stated error is the one across seeds") {
+  TEST_CASE("even light: each estimator is unbiased, and its stated error is the one across seeds" *
+            doctest::test_suite("long")) {
     const Mesh mesh = floor_and_wall();
     const auto discs = discs_on_floor(false);
     constexpr int seeds = 40;
@@ -147,8 +148,7 @@ TEST_SUITE("estimators") {
     }
   }
 
-  TEST_CASE(
-      "at the floor's rim discs lose half the light; the area of the surface does not, and its wall does not count") {
+  TEST_CASE("at the floor's rim discs lose half the light; area correction does not, and its wall does not count") {
     const Mesh mesh = floor_and_wall();
     std::vector<Disc> rim;
     for (int y = 3; y < 18; ++y)
@@ -166,8 +166,7 @@ TEST_SUITE("estimators") {
     CHECK(mean(Estimator::nearest) == doctest::Approx(0.5).epsilon(0.05));
   }
 
-  TEST_CASE(
-      "triangle hits: a vertex has the photons of the triangles around it, over their area; between vertices linear") {
+  TEST_CASE("triangle hits: a vertex has the photons of its triangles over their area; in between it is linear") {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
     mesh.triangles = {{0, 1, 2}, {1, 3, 2}};

@@ -7,11 +7,15 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <string>
 
+#include "detp/sim/files/number_text.hpp"
+#include "detp/sim/files/table_writer.hpp"
 #include "support/scratch_file.hpp"
 
 using namespace detp;
 using namespace detp::sim;
+using detp::sim::suffix_of;
 using support::ScratchFolder;
 
 namespace {
@@ -104,6 +108,29 @@ TEST_SUITE("known answer") {
     CHECK(*std::localeconv()->decimal_point == ',');
     CHECK(read_table("a,b\n1.5,1e-400\n").values[0][0] == 1.5);
     std::setlocale(LC_NUMERIC, before.c_str());
+  }
+
+  TEST_CASE("numbers beyond the range of any type are infinite or zero, in any notation") {
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const char* large : {"1e309", "1e5000", "10e404000", "+1E+99999", "0.001e6000", "1e99999999999999999999"})
+      CHECK(number_in(large) == infinity);
+    CHECK(number_in("-1e5000") == -infinity);
+    CHECK(number_in("1" + std::string(6000, '0')) == infinity);
+    for (const char* small : {"1e-400", "1e-6000", "1e-404000", "1000e-6000", "1e-99999999999999999999"})
+      CHECK(number_in(small) == 0);
+    CHECK(number_in("0." + std::string(6000, '0') + "1") == 0);
+    CHECK(std::signbit(number_in("-1e-6000").value()));
+    CHECK(number_in("0e999999") == 0);
+    CHECK_FALSE(number_in("1e5000x").has_value());
+  }
+
+  TEST_CASE("a suffix is a short ending behind the last dot of the name") {
+    for (const char* path : {"a.ply", "/x/a.PLY", "x.csv/a.Ply", "a.csv.ply", ".hidden.ply", "ä.ply"})
+      CHECK(suffix_of(path) == ".ply");
+    for (const char* path : {"", "a", "x.ply/a", ".ply", "/x/.ply", "a.", "tmp.Q2xJmC7d9k", "run-0.5", "v1.20", "a.b c",
+                             "a.p-y", "a.plyä", "/dev/stdout", "."})
+      CHECK(suffix_of(path).empty());
+    CHECK(suffix_of("clip.mp4") == ".mp4");
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "detp/sim/files/ray_file.hpp"
 #include "support/scratch_file.hpp"
 
 using namespace detp;
@@ -25,6 +26,19 @@ std::string disc_error(const std::string& name, const std::string& content, std:
 const std::string disc_ply_header =
     "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
     "property float nx\nproperty float ny\nproperty float nz\n";
+
+std::vector<Ray> read_rays_of(const std::string& name, const std::string& content) {
+  const ScratchFolder folder;
+  return read_rays(folder.file(name, content)).paths.rays;
+}
+
+std::string ray_error(const std::string& name, const std::string& content) {
+  return support::file_error_of([&] { (void)read_rays_of(name, content); });
+}
+
+const std::string ray_ply_header =
+    "ply\nformat ascii 1.0\nelement vertex 1\nproperty double ox\nproperty double oy\nproperty double oz\n"
+    "property double dx\nproperty double dy\nproperty double dz\n";
 
 }  // namespace
 
@@ -48,6 +62,25 @@ TEST_SUITE("identity") {
     CHECK(support::content_of(folder.path("discs")) == support::content_of(folder.path("discs.csv")));
     CHECK(support::content_of(folder.path("discs.ply")).starts_with("ply\nformat binary_little_endian"));
     CHECK(support::content_of(folder.path("discs.csv")).starts_with("x,y,z,nx,ny,nz,radius\n0.1,-0.333"));
+  }
+
+  TEST_CASE("written rays are read back bit for bit") {
+    const std::vector<Ray> rays{
+        {.origin = {0.1, 2e-308, -3}, .direction = {0, 1, 0}, .length = unbounded, .power = 1},
+        {.origin = {1e22, 0, 0}, .direction = glm::normalize(glm::dvec3{1, 2, 3}), .length = 0.7, .power = 1e-9}};
+    const ScratchFolder folder;
+    for (const char* name : {"rays.csv", "rays.ply", "rays.npy", "rays"}) {
+      write_rays(folder.path(name), rays);
+      const std::vector<Ray> back = read_rays(folder.path(name)).paths.rays;
+      REQUIRE(back.size() == 2);
+      for (std::size_t i = 0; i < 2; ++i) {
+        CHECK(back[i].origin == rays[i].origin);
+        CHECK(back[i].direction == rays[i].direction);
+        CHECK(back[i].length == rays[i].length);
+        CHECK(back[i].power == rays[i].power);
+      }
+    }
+    CHECK_THROWS_AS(write_rays(folder.path("rays.txt"), rays), FileError);
   }
 }
 
@@ -74,6 +107,26 @@ TEST_SUITE("known answer") {
     CHECK(discs[0].normal == glm::dvec3{0, 1, 0});
     CHECK(discs[0].radius == 4);
     CHECK(read_discs_of("d.ply", disc_ply_header + "end_header\n1 2 3 0 2 0\n", 0.25)[0].radius == 0.25);
+  }
+
+  TEST_CASE("a ray without length is a line, and without power has the power 1") {
+    const auto lines = read_rays_of("r.csv", "ox,oy,oz,dx,dy,dz\n1,2,3,0,0,-1e-300\n");
+    CHECK(lines[0].is_line());
+    CHECK(lines[0].power == 1);
+    CHECK(lines[0].origin == glm::dvec3{1, 2, 3});
+    CHECK(lines[0].direction == glm::dvec3{0, 0, -1});
+    const auto mixed =
+        read_rays_of("r.csv", "length,ox,oy,oz,dx,dy,dz\n,0,0,0,0,0,1\ninf,0,0,0,0,0,1\n2,0,0,0,0,0,9\n");
+    CHECK(mixed[0].is_line());
+    CHECK(mixed[1].is_line());
+    CHECK(mixed[2].length == 2);  // not scaled with the direction
+  }
+
+  TEST_CASE("PLY vertices are rays") {
+    const auto rays = read_rays_of("r.ply", ray_ply_header + "property double power\nend_header\n1 2 3 0 0 4 0.5\n");
+    CHECK(rays[0].is_line());
+    CHECK(rays[0].power == 0.5);
+    CHECK(rays[0].direction == glm::dvec3{0, 0, 1});
   }
 }
 
@@ -121,5 +174,100 @@ TEST_SUITE("bad input") {
                                         read_sound) > 100);
     CHECK(support::refused_when_damaged("d.ply", disc_ply_header + "end_header\n1 2 3 0 2 0\n", 1500, read_sound) >
           100);
+  }
+
+  TEST_CASE("an invalid ray in a CSV file is refused with its line") {
+    const std::string header = "ox,oy,oz,dx,dy,dz,length,power\n0,0,0,0,0,1,1,1\n";
+    for (const auto& [bound_row, reason] :
+         {std::pair{"0,0,0,0,0,0,1,1", ":3: the direction is zero; it needs a length"},
+          {"0,0,0,0,0,inf,1,1", ":3: dz must be finite (got inf)"},
+          {"0,nan,0,0,0,1,1,1", ":3: oy must be finite (got nan)"},
+          {"0,0,0,0,0,1,0,1", ":3: length must be > 0, or inf for a line (got 0)"},
+          {"0,0,0,0,0,1,-1,1", ":3: length must be > 0, or inf for a line (got -1)"},
+          {"0,0,0,0,0,1,-inf,1", ":3: length must be > 0, or inf for a line (got -inf)"},
+          {"0,0,0,0,0,1,nan,1", ":3: length must be > 0, or inf for a line (got nan)"},
+          {"0,0,0,0,0,1,1,-1", ":3: power must be >= 0 and finite (got -1)"},
+          {"0,0,0,0,0,1,1,inf", ":3: power must be finite (got inf)"},
+          {"0,0,0,0,0,1,1,", ":3: power is empty; a number is needed"}}) {
+      const auto& row = bound_row;
+      CAPTURE(row);
+      const std::string message = ray_error("r.csv", header + row + "\n");
+      CHECK_MESSAGE(message.find(std::string("r.csv") + reason) != std::string::npos, message);
+    }
+  }
+
+  TEST_CASE("a file without rays is refused, and an invalid ray in a PLY file with its number") {
+    CHECK(ray_error("r.csv", "ox,oy,oz,dx,dy,dz\n").find("has no ray") != std::string::npos);
+    CHECK(
+        ray_error("r.ply", ray_ply_header + "end_header\n1 2 3 0 0 0\n").find("vertex 1 of 1: the direction is zero") !=
+        std::string::npos);
+  }
+
+  TEST_CASE("a damaged ray file is read or refused, and rays that are read are valid") {
+    const auto read_sound = [](const std::string& path) {
+      for (const Ray& ray : read_rays(path).paths.rays) {
+        REQUIRE(std::abs(glm::length(ray.direction) - 1) < 1e-14);
+        REQUIRE(ray.length > 0);
+        REQUIRE(ray.power >= 0);
+      }
+    };
+    CHECK(support::refused_when_damaged("r.csv",
+                                        "ox,oy,oz,dx,dy,dz,length,power\n0,1,2,0,0,1,inf,0.5\n1,1,1,1,1,1,,1\n", 2000,
+                                        read_sound) > 100);
+    CHECK(support::refused_when_damaged("r.ply", ray_ply_header + "end_header\n1 2 3 0 2 0\n", 1500, read_sound) > 100);
+  }
+}
+
+TEST_SUITE("photons in files") {
+  TEST_CASE("photons and landings are written and read back") {
+    const std::vector<Ray> rays(3, Ray{.length = 2});
+    const std::vector<std::uint64_t> photons{0, 0, 1};
+    const std::vector<double> landings{0.5, 1.999, unbounded};
+    const ScratchFolder folder;
+    for (const char* name : {"rays.csv", "rays.ply", "rays.npy"}) {
+      write_rays(folder.path(name), PathRays{rays, photons, landings});
+      const RayFile back = read_rays(folder.path(name));
+      CHECK(back.paths.photons == photons);
+      CHECK(back.paths.landings == landings);
+      CHECK(back.order.empty());
+    }
+  }
+
+  TEST_CASE("photons get the numbers 0, 1, 2, … in the order of the rays; without the column there are none") {
+    const ScratchFolder folder;
+    const std::string header = "ox,oy,oz,dx,dy,dz,photon,landing\n";
+    const RayFile file = read_rays(
+        folder.file("r.csv", header + "0,0,0,0,0,1,7,1\n1,0,0,0,0,1,7,\n2,0,0,0,0,1,9,inf\n3,0,0,0,0,1,1e15,0\n"));
+    CHECK(file.paths.photons == std::vector<std::uint64_t>{0, 0, 1, 2});
+    CHECK(file.paths.landings == std::vector<double>{1, unbounded, unbounded, 0});
+    CHECK(file.order.empty());
+    const RayFile without = read_rays(folder.file("w.csv", "ox,oy,oz,dx,dy,dz\n0,0,0,0,0,1\n"));
+    CHECK(without.paths.photons.empty());
+    CHECK(without.paths.landings.empty());
+  }
+
+  TEST_CASE("rays of a photon that are apart are brought together, and know their places in the file") {
+    const ScratchFolder folder;
+    const std::string header = "ox,oy,oz,dx,dy,dz,photon\n";
+    const RayFile file = read_rays(
+        folder.file("r.csv", header + "0,0,0,0,0,1,5\n1,0,0,0,0,1,2\n2,0,0,0,0,1,5\n3,0,0,0,0,1,2\n4,0,0,0,0,1,3\n"));
+    CHECK(file.paths.photons == std::vector<std::uint64_t>{0, 0, 1, 1, 2});
+    CHECK(file.order == std::vector<std::uint32_t>{0, 2, 1, 3, 4});
+    for (std::size_t i = 0; i < 5; ++i) CHECK(file.paths.rays[i].origin.x == file.order[i]);
+  }
+
+  TEST_CASE("a photon that is no whole number, and a negative landing, are refused with their line") {
+    const std::string header = "ox,oy,oz,dx,dy,dz,photon,landing\n";
+    for (const auto& [bound_row, reason] :
+         {std::pair{"0.5,1", ":2: photon must be a whole number from 0 to 2^53 (got 0.5)"},
+          {"-1,1", ":2: photon must be a whole number"},
+          {"1e17,1", ":2: photon must be a whole number"},
+          {"nan,1", ":2: photon must be finite"},
+          {"1,-1", ":2: landing must be >= 0, or inf for none (got -1)"},
+          {"1,nan", ":2: landing must be >= 0, or inf for none (got nan)"}}) {
+      const std::string row = bound_row;
+      CAPTURE(row);
+      CHECK(ray_error("r.csv", header + "0,0,0,0,0,1," + row + "\n").find(reason) != std::string::npos);
+    }
   }
 }

@@ -118,8 +118,7 @@ TEST_SUITE("known answer") {
     CHECK(mesh.triangles[1] == std::array<std::uint32_t, 3>{0, 3, 2});
   }
 
-  TEST_CASE(
-      "an OBJ face is in its object and in all groups of the last g line, also where faces come before vertices") {
+  TEST_CASE("an OBJ face is in its object and in all groups of the last g line, wherever its vertices are") {
     const ScratchFolder folder;
     const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
     const std::string faces =

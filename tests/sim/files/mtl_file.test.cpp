@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <stop_token>
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/files/file_error.hpp"
@@ -161,19 +160,13 @@ TEST_SUITE("known answer") {
     const std::string mtl = folder.file("many.mtl", library);
     const std::string obj = folder.file("many.obj", "mtllib many.mtl\n" + faces);
     Notices notices;
-    std::uint64_t reading = 0;
-    {
-      const support::LoggedWork work;
+    const double reading = support::bounded_work_of([&] {
       (void)read_mtl(mtl, notices);
       (void)read_mesh(folder.file("alone.obj", faces), notices);
-      reading = work.total();
-    }
-    std::stop_source stop;
-    const support::LoggedWork work([&](std::uint64_t total) {
-      if (total > reading + StopCheck::most_work) stop.request_stop();
     });
-    CHECK_THROWS_WITH_AS((void)read_mesh(obj, notices, stop.get_token()), "stopped while matching materials", Stopped);
-    CHECK(work.bounded());
+    const support::StopAfterWork stop(reading + StopCheck::most_work + 1);
+    CHECK_THROWS_WITH_AS((void)read_mesh(obj, notices, stop.token()), "stopped while matching materials", Stopped);
+    CHECK(stop.bounded());
   }
 
   TEST_CASE("an OBJ file's faces have the materials of its library; the emitting ones are the scene's light") {

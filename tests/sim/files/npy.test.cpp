@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/files/disc_file.hpp"
@@ -58,8 +57,7 @@ const std::string plain_row = bytes_of<double>({1, 2, 3, 0, 0, 2});
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE(
-      "an array of NumPy is read: plain or structured, in any order of bytes, with any types and further fields") {
+  TEST_CASE("an array of NumPy is read: plain or structured, in any order of bytes, with any types and fields") {
     const auto check = [](const RayFile& file) {
       REQUIRE(file.paths.rays.size() == 2);
       CHECK(file.paths.rays[0].origin == glm::dvec3{1, 2, 3});

@@ -125,8 +125,7 @@ const Outline bent{{2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}, {0, 0}};
 }  // namespace
 
 TEST_SUITE("polygons") {
-  TEST_CASE(
-      "triangles of any simple polygon do not overlap, have its area and all corners, whatever its first corner") {
+  TEST_CASE("triangles of a simple polygon do not overlap and have its area and corners, from any first corner") {
     const std::vector<Outline> outlines{
         {{0, 0}, {2, 0}, {2, 1}, {0, 1}},
         bent,
@@ -142,8 +141,7 @@ TEST_SUITE("polygons") {
         spiral(4, 0.7)};
     for (const Outline& outline : outlines)
       for (std::size_t first = 0; first < outline.size(); first += 1 + outline.size() / 12) {
-        CAPTURE(outline.size());
-        CAPTURE(first);
+        INFO("outline.size() ", outline.size(), ", first ", first);
         check_divided(turned(outline, first), first + 1);
         Outline clockwise = turned(outline, first);
         std::ranges::reverse(clockwise);

@@ -49,7 +49,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("no faces of a built-in scene are in the same place") {
+  TEST_CASE("no faces of a built-in scene are in the same place" * doctest::test_suite("long")) {
     for (const char* name : {"@tree-coarse", "@courtyard", "@cornell", "@caustic", "@interior", "@room:8", "@machine:9",
                              "@details:7", "@plant:7", "@shells:7", "@terrain:7"}) {
       CAPTURE(name);

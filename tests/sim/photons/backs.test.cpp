@@ -115,8 +115,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("statistical") {
-  TEST_CASE(
-      "ground and lamps in another tessellation give the light of those listed once, which twice the lamps do not") {
+  TEST_CASE("ground and lamps in another tessellation give the light of those listed once; twice the lamps do not") {
     Mesh once = with_materials();
     add_ground(once, 1);
     add_lamp(once, 0.5);

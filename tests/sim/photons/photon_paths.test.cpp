@@ -61,7 +61,8 @@ void check_sound(const Scene& scene, const std::vector<Ray>& rays) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("there are `count` rays and those up to the end of the last photon, all valid, and power × photons = 1") {
+  TEST_CASE("there are `count` rays and those up to the end of the last photon, all valid, and power × photons = 1" *
+            doctest::test_suite("long")) {
     for (const char* name : {"@tree", "@tree-coarse", "@courtyard", "@cornell", "@caustic", "@interior"}) {
       CAPTURE(name);
       const Scene scene = open_scene({.name = name, .samples = {}});
@@ -99,8 +100,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE(
-      "a dim lamp among bright ones gets its share of photons and more: 0.9 of its power + a tenth of an even one") {
+  TEST_CASE("a dim lamp among bright ones gets 0.9 of its share of photons + a tenth of an even share") {
     Scene scene = open_scene({.name = "@caustic", .samples = {}});
     scene.mesh.materials = {.all = {{.diffuse = 0}}};
     const auto& spot = std::get<SpotLight>(scene.lights.at(0).shape);
@@ -123,8 +123,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("in a closed box segments start a gap after a wall and end a gap beyond one, at any scale and place") {
     for (const double scale : {1e-13, 1.0, 1e12})
       for (const double offset : {0.0, 5e6}) {
-        CAPTURE(scale);
-        CAPTURE(offset);
+        INFO("scale ", scale, ", offset ", offset);
         const glm::dvec3 centre = offset * scale * glm::dvec3{1, -1, 0.5};
         const Scene scene = closed_box(scale, centre);
         const double gap = 1e-5 * std::sqrt(12.0);
@@ -305,9 +304,7 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE(
-      "every kind of light, and every direction of up, gives valid paths in pathological meshes, or a clear error" *
-      doctest::test_suite("scenes")) {
+  TEST_CASE("light of all kinds is valid in pathological meshes, or a clear error" * doctest::test_suite("scenes")) {
     const std::string folder = support::scenes_folder();
     if (folder.empty()) return;
     std::size_t traced = 0;

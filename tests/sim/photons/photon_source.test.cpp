@@ -1,16 +1,20 @@
-#include "detp/sim/photons/photon_source.hpp"
-#include "detp/sim/open/open_scene.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <numeric>
 #include <optional>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
 #include "detp/sim/base/memory.hpp"
+#include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
+#include "detp/sim/photons/photon_source.hpp"
+#include "detp/sim/photons/photon_walk.hpp"
+#include "support/boxes.hpp"
 
 using namespace detp::sim;
 
@@ -42,8 +46,7 @@ void compare_blocks(double kept, Counting counting) {
   for (const char* name : {"@cornell", "@tree-coarse"}) {
     const Scene scene = open_scene({.name = name, .samples = {}});
     for (const std::size_t count : {1, 5001, 150'000}) {
-      CAPTURE(name);
-      CAPTURE(count);
+      INFO("name ", name, ", count ", count);
       const TracedPaths expected = photon_paths(scene, count, 3);
       const PhotonSource source(scene, count, 3, caster_for(scene), {}, nullptr, counting);
       const std::size_t size = expected.rays.size();
@@ -68,8 +71,7 @@ void compare_blocks(double kept, Counting counting) {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE(
-      "photons by number are photon_paths, byte for byte, for any blocks, whenever they are counted, kept or not") {
+  TEST_CASE("photons by number are photon_paths, byte for byte" * doctest::test_suite("long")) {
     for (const double kept : {0.0, 2000.0, 1e9}) {  // rays
       set_memory_limit(16 * 72 * kept + 1e6);
       compare_blocks(kept, Counting::ahead);
@@ -80,8 +82,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("limit") {
-  TEST_CASE(
-      "rays that are counted as they are read are traced block by block, and the last photon ends the last block") {
+  TEST_CASE("rays counted as they are read are traced block by block" * doctest::test_suite("long")) {
     const Scene scene = open_scene({.name = "@cornell", .samples = {}});
     const PhotonSource source(scene, 1'000'000, 3, caster_for(scene), {}, nullptr, Counting::as_read);
     CHECK(source.size() == 1'000'000);
@@ -105,9 +106,7 @@ TEST_SUITE("limit") {
       CHECK(source.farthest_from(point) < 2 * farthest);
     }
   }
-}
 
-TEST_SUITE("limit") {
   TEST_CASE("farthest_from holds for every kind of light, inside and outside of the scene") {
     Scene scene = open_scene({.name = "@cornell", .samples = {}});
     const glm::dvec3 size = scene.box.size();
@@ -142,5 +141,63 @@ TEST_SUITE("bad input") {
   TEST_CASE("more rays than can be numbered in memory are refused before they are traced") {
     const Scene scene = open_scene({.name = "@cornell", .samples = {}});
     CHECK_THROWS_AS(PhotonSource(scene, 1'000'000'000'000'000'000, 1), std::length_error);
+  }
+}
+
+TEST_SUITE("photon shares") {
+  TEST_CASE("the mean path length has no bias, which equal shares have") {
+    constexpr int runs = 200'000;
+    constexpr double mean_length = 10;
+    std::mt19937_64 random(1);
+    std::geometric_distribution<std::uint64_t> length(1 / mean_length);
+    for (const std::uint64_t wanted : {5, 30, 100}) {
+      double unbiased = 0;
+      double equal = 0;
+      double square = 0;
+      for (int run = 0; run < runs; ++run) {
+        std::vector<std::uint64_t> pieces;
+        for (std::uint64_t all = 0; all < wanted; all += pieces.back()) pieces.push_back(1 + length(random));
+        const auto n = static_cast<double>(pieces.size());
+        const double mean = static_cast<double>(std::accumulate(pieces.begin(), pieces.end(), std::uint64_t{0})) / n;
+        const std::vector<double> shares = photon_shares(pieces, wanted);
+        double own = shares.empty() ? mean : 0;
+        for (std::size_t i = 0; i < shares.size(); ++i) own += shares[i] * static_cast<double>(pieces[i]);
+        CHECK(std::abs(std::accumulate(shares.begin(), shares.end(), 0.0) - (shares.empty() ? 0 : 1)) < 1e-12);
+        unbiased += own / runs;
+        square += own * own / runs;
+        equal += mean / runs;
+      }
+      CAPTURE(wanted);
+      const double error = std::sqrt((square - unbiased * unbiased) / runs);
+      CHECK(std::abs(unbiased - mean_length) < 4.5 * error);
+      CHECK(std::abs(equal - mean_length) > 10 * error);
+    }
+  }
+
+  TEST_CASE("with one piece for each photon, and with many photons, all are equal") {
+    CHECK(photon_shares(std::vector<std::uint64_t>(100, 1), 100).empty());
+    CHECK(photon_shares(std::vector<std::uint64_t>(5000, 3), 14'999).empty());
+    CHECK(photon_shares(std::vector<std::uint64_t>{7}, 5).empty());
+    CHECK(photon_shares(std::vector<std::uint64_t>{5, 1000}, 100) == std::vector<double>{1, 0});
+  }
+
+  TEST_CASE("a stream has the same powers and the same ledger as paths in memory" * doctest::test_suite("long")) {
+    for (const char* name : {"@cornell", "@tree"})
+      for (const std::uint64_t count : {50, 3000, 20'000}) {
+        const Scene scene = open_scene({.name = name, .samples = {}});
+        const TracedPaths paths = photon_paths(scene, count, 3);
+        const PhotonSource source(scene, count, 3);
+        std::vector<Ray> rays(source.size());
+        source.read(0, rays);
+        REQUIRE(rays.size() == paths.rays.size());
+        const double photons = source.scale(source.size()) == 1 ? 1 : static_cast<double>(source.photons());
+        for (std::size_t i = 0; i < rays.size(); ++i) REQUIRE(rays[i].power / photons == paths.rays[i].power);
+        CHECK(paths.light.all_photons() == paths.photon_count);
+        const LightLedger light = source.light_of(source.photons());
+        CHECK(light.photons == paths.light.photons);
+        CHECK(light.landings == paths.light.landings);
+        for (std::size_t i = 0; i < path_ends; ++i)
+          CHECK(light.power[i] == doctest::Approx(paths.light.power[i]).epsilon(1e-12));
+      }
   }
 }

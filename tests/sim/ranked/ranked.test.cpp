@@ -10,16 +10,18 @@
 
 #include "../ranks/thread_ranks.hpp"
 #include "detp/sim/base/memory.hpp"
+#include "detp/sim/geometry/disc_source.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/photon_source.hpp"
-#include "detp/sim/search/irradiance.hpp"
 #include "detp/sim/ranked/ranked_rays.hpp"
+#include "detp/sim/search/irradiance.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "support/attempts.hpp"
 #include "support/discs_elsewhere.hpp"
-#include "support/memory_limit.hpp"
+#include "support/machine.hpp"
+#include "support/same_bytes.hpp"
 
 using namespace detp;
 using namespace detp::sim;
@@ -53,12 +55,8 @@ class UnequalLines final : public RaySource {
 };
 
 void check_same_hits(const StreamedOutcome& found, const StreamedOutcome& expected) {
-  CHECK(found.outcome.hits == expected.outcome.hits);
-  CHECK(found.outcome.irradiance == expected.outcome.irradiance);
-  CHECK(found.outcome.standard_error == expected.outcome.standard_error);
-  CHECK(found.outcome.upper_bound == expected.outcome.upper_bound);
-  CHECK(found.outcome.pairs == expected.outcome.pairs);
-  CHECK(found.outcome.total_hits == expected.outcome.total_hits);
+  support::check_same(found.outcome, expected.outcome,
+                      {.pairs = !expected.outcome.pairs.empty(), .standard_error = true});
 }
 
 void check_same(const StreamedOutcome& found, const StreamedOutcome& expected) {
@@ -91,6 +89,18 @@ StreamedOutcome with_arrays(RankedOutcome ranked) {
   return std::move(ranked.found);
 }
 
+/// What so many ranks find together; `search` is what each does.
+template <class Search>
+StreamedOutcome found_by(int count, const Search& search) {
+  StreamedOutcome found;
+  const auto thrown = on_ranks(count, [&](Ranks& ranks) {
+    RankedOutcome own = search(ranks);
+    if (ranks.rank() == 0) found = own.results ? with_arrays(std::move(own)) : std::move(own.found);
+  });
+  for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+  return found;
+}
+
 StreamOptions options_of(bool pairs) {
   return {.run = {.pairs = pairs, .standard_error = true}, .block = std::size_t{1} << 17};
 }
@@ -98,7 +108,8 @@ StreamOptions options_of(bool pairs) {
 }  // namespace
 
 TEST_SUITE("ranks") {
-  TEST_CASE("any number of ranks finds the bytes of one process: lines, four techniques") {
+  TEST_CASE("any number of ranks finds the bytes of one process: lines, four techniques" *
+            doctest::test_suite("long")) {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20, 0.1, 3);
     const UnequalLines lines(enclosing_sphere(discs), 1'700'000);  // 52 blocks of photons
     for (std::size_t i = 0; i < techniques.size(); ++i) {
@@ -106,18 +117,14 @@ TEST_SUITE("ranks") {
       const StreamedOutcome expected = run_streamed(discs, lines, techniques[i], options_of(true));
       for (const int count : i == 0 ? std::vector{1, 2, 3, 4, 7, 9} : std::vector{static_cast<int>(i) + 1}) {
         CAPTURE(count);
-        StreamedOutcome found;
-        const auto thrown = on_ranks(count, [&](Ranks& ranks) {
-          RankedOutcome own = run_on_ranks(discs, lines, techniques[i], options_of(true), ranks);
-          if (ranks.rank() == 0) found = std::move(own.found);
-        });
-        for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
+        const StreamedOutcome found = found_by(
+            count, [&](Ranks& ranks) { return run_on_ranks(discs, lines, techniques[i], options_of(true), ranks); });
         check_same(found, expected);
       }
     }
   }
 
-  TEST_CASE("any number of ranks finds the bytes of one process: photon paths") {
+  TEST_CASE("any number of ranks finds the bytes of one process: photon paths" * doctest::test_suite("long")) {
     const Scene scene = open_scene({"@cornell", 200, 1, {}, {}});
     std::vector<Disc> discs;
     for (const Sample& sample : scene.samples) discs.push_back({sample.position, sample.normal, 0.05});
@@ -126,21 +133,20 @@ TEST_SUITE("ranks") {
     CHECK(paths.first_ray_of(paths.photons()) == paths.size());
     const StreamedOutcome expected = run_streamed(discs, paths, techniques[0], options_of(false));
     for (const int count : {2, 3}) {
-      StreamedOutcome found;
-      const auto thrown = on_ranks(count, [&](Ranks& ranks) {
+      const StreamedOutcome found = found_by(count, [&](Ranks& ranks) {
         const PhotonSource together(scene, 1'500'000, 1, caster_for(scene), {}, &ranks);
         CHECK(together.size() == paths.size());
         CHECK(together.photons() == paths.photons());
         CHECK(together.farthest_from({0, 0, 0}) == paths.farthest_from({0, 0, 0}));
         RankedOutcome own = run_on_ranks(discs, together, techniques[0], options_of(false), ranks);
-        if (ranks.rank() == 0) found = std::move(own.found);
+        return own;
       });
-      for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
       check_same(found, expected);
     }
   }
 
-  TEST_CASE("ranks that share the discs find the bytes of one process: four techniques, lines and photon paths") {
+  TEST_CASE("ranks that share the discs find the bytes of one process: four techniques, lines and photon paths" *
+            doctest::test_suite("long")) {
     std::vector<Disc> discs = uniform_discs(Body::cube, 2, 60, 0.1, 3);
     for (std::size_t i = 0; i < discs.size(); i += 3) discs[i].radius = 0.02;
     const UnequalLines lines(enclosing_sphere(discs), 300'000);
@@ -149,12 +155,9 @@ TEST_SUITE("ranks") {
       const StreamedOutcome expected = run_streamed(discs, lines, techniques[i], options_of(true));
       for (const int count : i == 0 ? std::vector{1, 2, 3, 4, 7, 60} : std::vector{static_cast<int>(i) + 1}) {
         CAPTURE(count);
-        StreamedOutcome found;
-        const auto thrown = on_ranks(count, [&](Ranks& ranks) {
-          RankedOutcome own = run_on_ranks(discs, lines, techniques[i], options_of(true), ranks, Share::discs);
-          if (ranks.rank() == 0) found = std::move(own.found);
+        const StreamedOutcome found = found_by(count, [&](Ranks& ranks) {
+          return run_on_ranks(discs, lines, techniques[i], options_of(true), ranks, Share::discs);
         });
-        for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
         check_same_hits(found, expected);
       }
       check_same_hits(run_in_parts(DiscsInMemory(discs), lines, techniques[i], options_of(true), 3).found, expected);
@@ -164,12 +167,9 @@ TEST_SUITE("ranks") {
     for (const Sample& sample : scene.samples) discs.push_back({sample.position, sample.normal, 0.05});
     const PhotonSource paths(scene, 200'000, 1);
     const StreamedOutcome expected = run_streamed(discs, paths, techniques[0], options_of(true));
-    StreamedOutcome found;
-    const auto thrown = on_ranks(3, [&](Ranks& ranks) {
-      RankedOutcome own = run_on_ranks(discs, paths, techniques[0], options_of(true), ranks, Share::discs);
-      if (ranks.rank() == 0) found = std::move(own.found);
+    const StreamedOutcome found = found_by(3, [&](Ranks& ranks) {
+      return run_on_ranks(discs, paths, techniques[0], options_of(true), ranks, Share::discs);
     });
-    for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
     check_same_hits(found, expected);
     const auto refused = on_ranks(201, [&](Ranks& ranks) {
       static_cast<void>(run_on_ranks(discs, paths, techniques[0], options_of(true), ranks, Share::discs));
@@ -177,7 +177,8 @@ TEST_SUITE("ranks") {
     CHECK_THROWS_AS(std::rethrow_exception(refused[0]), std::invalid_argument);
   }
 
-  TEST_CASE("discs that are not in memory are searched in parts, on any number of ranks, with the same bytes") {
+  TEST_CASE("discs that are not in memory are searched in parts, on any number of ranks, with the same bytes" *
+            doctest::test_suite("long")) {
     std::vector<Disc> discs = uniform_discs(Body::cube, 2, 30'000, 0.02, 3);
     for (std::size_t i = 0; i < discs.size(); i += 3) discs[i].radius = 0.04;
     const DiscsElsewhere elsewhere(discs);
@@ -189,15 +190,13 @@ TEST_SUITE("ranks") {
       const StreamedOutcome expected = run_streamed(discs, lines, candidate, options);
       check_same_hits(with_arrays(run_in_parts(elsewhere, lines, candidate, options, 5)), expected);
       for (const int count : {1, 2, 3}) {
-        StreamedOutcome found;
         const MemoryLimit limit(36.0 * (1 << 20));
-        const auto thrown = on_ranks(count, [&](Ranks& ranks) {
+        const StreamedOutcome found = found_by(count, [&](Ranks& ranks) {
           RankedOutcome own = run_on_ranks(elsewhere, lines, candidate, options, ranks);
           CHECK(own.found.bytes < 36.0 * (1 << 20));
           CHECK((own.results != nullptr) == (ranks.rank() == 0));
-          if (ranks.rank() == 0) found = with_arrays(std::move(own));
+          return own;
         });
-        for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
         check_same_hits(found, expected);
       }
     }
@@ -217,18 +216,16 @@ TEST_SUITE("ranks") {
     CHECK_THROWS_AS(static_cast<void>(run_on_ranks(discs, lines, techniques[0], options, one)), std::length_error);
   }
 
-  TEST_CASE("discs that are shared anew, because no ray meets half of them, find the same bytes") {
+  TEST_CASE("discs that are shared anew, because no ray meets half of them, find the same bytes" *
+            doctest::test_suite("long")) {
     std::vector<Disc> discs = uniform_discs(Body::cube, 2, 4000, 0.05, 3);
     const UnequalLines lines(enclosing_sphere(discs), 2'200'000);
     const std::vector<Disc> near = discs;
     for (const Disc& disc : near) discs.push_back({disc.centre + glm::dvec3{10, 0, 0}, disc.normal, disc.radius});
     const StreamedOutcome expected = run_streamed(discs, lines, techniques[0], options_of(false));
-    StreamedOutcome found;
-    const auto thrown = on_ranks(2, [&](Ranks& ranks) {
-      RankedOutcome own = run_on_ranks(discs, lines, techniques[0], options_of(false), ranks, Share::discs);
-      if (ranks.rank() == 0) found = std::move(own.found);
+    const StreamedOutcome found = found_by(2, [&](Ranks& ranks) {
+      return run_on_ranks(discs, lines, techniques[0], options_of(false), ranks, Share::discs);
     });
-    for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
     check_same_hits(found, expected);
   }
 
@@ -255,8 +252,7 @@ TEST_SUITE("ranks") {
     const PhotonBlocks blocks{10};
     for (const std::vector<double>& seconds :
          {std::vector{1.0, 1.1, 1.0}, {1.0, 2.0, 1.0}, {5.0, 1.0, 1.0}, {1.0, 1.0, 40.0}, {0.001, 0.002, 0.001}}) {
-      CAPTURE(seconds[0]);
-      CAPTURE(seconds[1]);
+      INFO("seconds[0] ", seconds[0], ", seconds[1] ", seconds[1]);
       CutOfRays cut(lines, blocks, 3);
       REQUIRE(cut.has_rest());
       for (int rank = 0; rank < 3; ++rank) CHECK(cut.heads()[rank].next_block - cut.heads()[rank].block == 12);
@@ -282,7 +278,8 @@ TEST_SUITE("ranks") {
     }
   }
 
-  TEST_CASE("ranks of unequal speed find the bytes of one process, and the slow one has less to do") {
+  TEST_CASE("ranks of unequal speed find the bytes of one process, and the slow one has less to do" *
+            doctest::test_suite("long")) {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20, 0.1, 3);
     const Sphere sphere = enclosing_sphere(discs);
     constexpr std::uint64_t count = 64 << 15;
@@ -291,15 +288,13 @@ TEST_SUITE("ranks") {
       CAPTURE(slow);
       double seconds = 0.02;
       CHECK(support::in_attempts(5, [&] {  // on a busy machine the others may seem slow, too
-        StreamedOutcome found;
         std::vector<std::uint64_t> loaded(3);
-        const auto thrown = on_ranks(3, [&](Ranks& ranks) {
+        const StreamedOutcome found = found_by(3, [&](Ranks& ranks) {
           const UnequalLines lines(sphere, count, ranks.rank() == slow ? 7.5 * seconds : seconds);
           RankedOutcome own = run_on_ranks(discs, lines, techniques[0], options_of(true), ranks);
           loaded[static_cast<std::size_t>(ranks.rank())] = lines.made();
-          if (ranks.rank() == 0) found = std::move(own.found);
+          return own;
         });
-        for (const std::exception_ptr& one : thrown) CHECK_FALSE(one);
         check_same(found, expected);
         seconds *= 2;
         const std::uint64_t of_slow = std::exchange(loaded[static_cast<std::size_t>(slow)], count);

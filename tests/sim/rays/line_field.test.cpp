@@ -2,17 +2,38 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/predicates.hpp"
 #include "detp/sim/geometry/random.hpp"
-#include "support/instruction_sets.hpp"
+#include "detp/sim/rays/ray_source.hpp"
+#include "support/machine.hpp"
 
 using namespace detp;
 using namespace detp::sim;
+
+namespace {
+
+bool same_bytes(const std::vector<Ray>& a, const std::vector<Ray>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Ray)) == 0;
+}
+
+std::vector<Ray> read_in_blocks(const RaySource& source, std::size_t block) {
+  std::vector<Ray> all(source.size());
+  for (std::size_t first = 0; first < all.size(); first += block)
+    source.read(first, std::span(all).subspan(first, std::min(block, all.size() - first)));
+  return all;
+}
+
+const Sphere sphere{{1, -2, 3}, 2.5};
+
+}  // namespace
 
 TEST_SUITE("identity") {
   TEST_CASE("a line has unit direction, is unbounded, starts nearest to the centre and crosses the sphere") {
@@ -58,6 +79,19 @@ TEST_SUITE("identity") {
       CHECK(std::abs(glm::dot(first, second)) < 1e-15);
       CHECK(std::abs(glm::length(first) - 1) < 1e-14);
     }
+  }
+
+  TEST_CASE("the lines of a field are its lines, for any blocks") {
+    const std::vector<Ray> lines = LineField(sphere, 7).lines(0, 10'000);
+    const LinesOfField source(sphere, 7, lines.size());
+    CHECK(source.size() == lines.size());
+    for (const std::size_t block : {997, 5000, 10'000}) CHECK(same_bytes(read_in_blocks(source, block), lines));
+    CHECK_FALSE(same_bytes(read_in_blocks(LinesOfField(sphere, 8, lines.size()), 997), lines));
+  }
+
+  TEST_CASE("rays in memory are read unchanged") {
+    const std::vector<Ray> lines = LineField(sphere, 7).lines(0, 100);
+    for (const std::size_t block : {1, 7, 100}) CHECK(same_bytes(read_in_blocks(RaysInMemory(lines), block), lines));
   }
 }
 
@@ -105,5 +139,19 @@ TEST_SUITE("statistical") {
     // Standard deviations of the cosine: sqrt(1/2 - 4/9) and sqrt(1/3 - 1/4).
     CHECK(std::abs(cosine / count - 2.0 / 3) < 5 * std::sqrt(1.0 / 18 / count));
     CHECK(std::abs(uniform / count - 0.5) < 5 * std::sqrt(1.0 / 12 / count));
+  }
+}
+
+TEST_SUITE("limit") {
+  TEST_CASE("no origin is farther than farthest_from reports, and that bound is tight") {
+    const std::vector<Ray> lines = LineField(sphere, 7).lines(0, 10'000);
+    for (const glm::dvec3& point : {sphere.centre, glm::dvec3{0, 0, 0}, glm::dvec3{10, 10, 10}}) {
+      double farthest = 0;
+      for (const Ray& line : lines) farthest = std::max(farthest, glm::distance(line.origin, point));
+      CHECK(RaysInMemory(lines).farthest_from(point) == farthest);
+      const double reported = LinesOfField(sphere, 7, lines.size()).farthest_from(point);
+      CHECK(reported >= farthest);
+      CHECK(reported < 1.01 * farthest);
+    }
   }
 }

@@ -167,7 +167,7 @@ TEST_SUITE("backward paths: known answers") {
 }
 
 TEST_SUITE("backward paths and photons") {
-  TEST_CASE("photons land on the surfaces with the flux that backward paths find there") {
+  TEST_CASE("photons land on the surfaces with the flux that backward paths find there" * doctest::test_suite("long")) {
     for (const char* name : {"@cornell", "@tree-coarse", "@furnace"}) {
       CAPTURE(name);
       const Scene scene = open_scene({.name = name, .samples = {}});

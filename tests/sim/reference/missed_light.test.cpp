@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
@@ -117,11 +116,11 @@ double landed(const Paths& paths) {
 }  // namespace
 
 TEST_SUITE("missed light") {
-  TEST_CASE(
-      "what backward paths find and what they miss is all light: glass, a mirror, gloss with some diffuse light") {
+  TEST_CASE("what backward paths find and what they miss is all light: glass, a mirror, gloss with some diffuse light" *
+            doctest::test_suite("long")) {
     for (const Scene& scene : {glass_slab(), mirror(std::numeric_limits<double>::infinity(), 0), mirror(40, 0.3)}) {
-      CAPTURE(scene.mesh.triangles.size());
-      CAPTURE(scene.mesh.materials.all[1].diffuse);
+      INFO("scene.mesh.triangles.size() ", scene.mesh.triangles.size(), ", scene.mesh.materials.all[1].diffuse ",
+           scene.mesh.materials.all[1].diffuse);
       const Paths all = photon_paths(scene, 400'000, 3);
       const Paths missed = missed_light(scene, caster_for(scene), 3, all.photon_count);
       const FloorMean by_all = on_floor(all);

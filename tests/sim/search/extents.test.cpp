@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "detp/sim/geometry/random.hpp"
 #include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/random.hpp"
 #include "detp/sim/search/soundness.hpp"
-#include "support/instruction_sets.hpp"
+#include "support/machine.hpp"
 #include "support/not_a_length.hpp"
 
 using namespace detp::sim;

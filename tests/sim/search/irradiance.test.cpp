@@ -11,9 +11,12 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "support/candidates.hpp"
+#include "support/same_bytes.hpp"
 
 using namespace detp;
 using namespace detp::sim;
+using support::one_of_each;
 
 namespace {
 
@@ -49,17 +52,6 @@ std::vector<std::uint64_t> few_rays_each(std::size_t rays) {
   return photons;
 }
 
-const std::vector<Candidate> one_of_each{{Technique::brute_force, BruteForceParameters{}},
-                                         {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
-                                         {Technique::cell_spheres, CellSpheresParameters{3}},
-                                         {Technique::sphere_tree, SphereTreeParameters{8, 4}},
-                                         {Technique::box_tree, BoxTreeParameters{8, 4}},
-                                         {Technique::octree, OctreeParameters{3}},
-                                         {Technique::grid, GridParameters{8}},
-                                         {Technique::bsp, BspParameters{8, 4}},
-                                         {Technique::bvh, BvhParameters{}},
-                                         {Technique::ray_map, RayMapParameters{}}};
-
 }  // namespace
 
 TEST_SUITE("standard error of irradiance") {
@@ -88,17 +80,8 @@ TEST_SUITE("standard error of irradiance") {
           CHECK(std::isfinite(outcome.standard_error[d]) == std::isfinite(expected[d]));
         }
         CHECK(finite > 20);
-        for (const Candidate& candidate : one_of_each)
-          for (const Engine engine : {Engine::simd, Engine::plain})
-            for (const int threads : {1, 2}) {
-              CAPTURE(name(candidate.technique));
-              const Outcome other =
-                  run(problem, candidate, {.standard_error = true, .engine = engine, .threads = threads});
-              CHECK(other.pairs.empty());
-              CHECK(other.standard_error == outcome.standard_error);
-              CHECK(other.upper_bound == outcome.upper_bound);
-              CHECK(other.irradiance == outcome.irradiance);
-            }
+        support::check_same_by_all(problem, outcome, {one_of_each(), support::both_engines, {1, 2}},
+                                   {.standard_error = true});
         if (numbered) continue;  // rays in memory have no photon numbers
         const StreamOptions options{.run = {.standard_error = true}, .block = 100};
         const StreamedOutcome streamed = run_streamed(discs, RaysInMemory(rays), box_tree, options);
@@ -178,7 +161,7 @@ TEST_SUITE("standard error of irradiance") {
         rays.push_back({{0, 0, 1}, {0, 0, -1}, unbounded, 2});
         photons.push_back(photon);
       }
-    for (const Candidate& candidate : one_of_each) {
+    for (const Candidate& candidate : one_of_each()) {
       const Outcome outcome =
           run(make_problem(PathRays{rays, photons, {}}, discs), candidate, {.standard_error = true});
       CHECK(outcome.hits[1] == 0);
@@ -186,7 +169,8 @@ TEST_SUITE("standard error of irradiance") {
     }
   }
 
-  TEST_CASE("Extreme powers have the errors of ordinary ones, scaled, by every technique and in blocks") {
+  TEST_CASE("Extreme powers have the errors of ordinary ones, scaled, by every technique and in blocks" *
+            doctest::test_suite("long")) {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 60, 0.5, 3);
     std::vector<Ray> rays = LineField(enclosing_sphere(discs), 4).lines(0, 3000);
     const std::vector<std::uint64_t> photons = few_rays_each(rays.size());
@@ -200,10 +184,9 @@ TEST_SUITE("standard error of irradiance") {
         with_powers(0, equal);
         const Outcome usual = run(make_problem(paths, discs), box_tree, {.standard_error = true});
         for (const int exponent : {-900, -660, 300, 660, 930})
-          for (const Candidate& candidate : one_of_each)
-            for (const Engine engine : {Engine::simd, Engine::plain}) {
-              CAPTURE(exponent);
-              CAPTURE(name(candidate.technique));
+          for (const Candidate& candidate : one_of_each())
+            for (const Engine engine : support::both_engines) {
+              INFO("exponent ", exponent, ", name(candidate.technique) ", name(candidate.technique));
               with_powers(exponent, equal);
               const Outcome extreme =
                   run(make_problem(paths, discs), candidate, {.standard_error = true, .engine = engine});

@@ -11,7 +11,7 @@
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "support/exact_candidates.hpp"
+#include "support/candidates.hpp"
 #include "support/not_a_length.hpp"
 
 using namespace detp;
@@ -31,9 +31,8 @@ void check_all_agree(const Problem& problem) {
   const Outcome expected = truth_of(problem);
   for (const Candidate& candidate : support::exact_candidates())
     for (const bool plain : {false, true}) {
-      CAPTURE(name(candidate.technique));
-      CAPTURE(describe(candidate));
-      CAPTURE(plain);
+      INFO("name(candidate.technique) ", name(candidate.technique), ", describe(candidate) ", describe(candidate),
+           ", plain ", plain);
       const Outcome outcome = run(problem, candidate, {.pairs = true, .engine = plain ? Engine::plain : Engine::simd});
       CHECK(outcome.pairs == expected.pairs);
       CHECK(outcome.irradiance == expected.irradiance);
@@ -80,8 +79,7 @@ TEST_SUITE("bad input") {
     int refused = 0;
     for (const Field& field : fields())
       for (const double number : numbers) {
-        CAPTURE(field.name);
-        CAPTURE(number);
+        INFO("field.name ", field.name, ", number ", number);
         SmallInput given;
         field.number(given) = number;
         const bool never = std::isnan(number) || number == -infinity || (number == infinity && field.name[7] != 'l');

@@ -12,8 +12,9 @@
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
-#include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "support/candidates.hpp"
+#include "support/same_bytes.hpp"
 
 using namespace detp;
 using namespace detp::sim;
@@ -25,23 +26,12 @@ const std::vector<Disc>& few_discs() {
   return all;
 }
 
-/// Lines whose powers span ten decades, so that adding in another order gives another sum.
 const std::vector<Ray>& few_rays() {
-  static const std::vector<Ray> all = [] {
-    std::vector<Ray> lines = LineField(enclosing_sphere(few_discs()), 4).lines(0, 1000);
-    for (std::size_t i = 0; i < lines.size(); ++i) lines[i].power = std::pow(10, 10 * uniform4(5, Stream::tests, i)[0]);
-    return lines;
-  }();
+  static const std::vector<Ray> all = support::uneven_lines(few_discs(), 1000);
   return all;
 }
 
-const std::vector<Candidate> candidates{{Technique::brute_force, BruteForceParameters{}},
-                                        {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
-                                        {Technique::cell_spheres, CellSpheresParameters{3}},
-                                        {Technique::sphere_tree, SphereTreeParameters{8, 4}},
-                                        {Technique::box_tree, BoxTreeParameters{8, 4}},
-                                        {Technique::octree, OctreeParameters{3}},
-                                        {Technique::grid, GridParameters{8}}};
+const std::vector<Candidate>& candidates = support::one_of_each();
 
 }  // namespace
 
@@ -70,7 +60,7 @@ TEST_SUITE("known answer") {
 
 TEST_SUITE("identity") {
   TEST_CASE("blocks of rays that continue one another's totals give the bits of one run over all rays") {
-    const Outcome whole = run(make_problem(few_rays(), few_discs()), candidates[0], {.engine = Engine::plain});
+    const Outcome whole = support::truth_of(make_problem(few_rays(), few_discs()));
     for (const Candidate& candidate : candidates) {
       CAPTURE(name(candidate.technique));
       Totals totals;
@@ -132,8 +122,7 @@ TEST_SUITE("reference value") {
 
   TEST_CASE("rays without photon numbers are photons: 50 000 lines are summed in two blocks") {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20, 0.3, 3);
-    std::vector<Ray> rays = LineField(enclosing_sphere(discs), 4).lines(0, 50'000);
-    for (std::size_t i = 0; i < rays.size(); ++i) rays[i].power = std::pow(10, 10 * uniform4(5, Stream::tests, i)[0]);
+    const std::vector<Ray> rays = support::uneven_lines(discs, 50'000);
     const Outcome outcome = run(make_problem(rays, discs), candidates[4], {.pairs = true});
     std::vector<glm::dvec3> parts[2]{std::vector<glm::dvec3>(20), std::vector<glm::dvec3>(20)};
     for (const Pair& pair : outcome.pairs)

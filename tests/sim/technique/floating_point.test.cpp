@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#include <cmath>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -12,8 +11,8 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/searcher.hpp"
 #include "detp/sim/technique/streamed.hpp"
-#include "support/exact_candidates.hpp"
-#include "support/flushing.hpp"
+#include "support/candidates.hpp"
+#include "support/machine.hpp"
 
 using namespace detp;
 using namespace detp::sim;

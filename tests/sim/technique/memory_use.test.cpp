@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <glm/geometric.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -18,14 +18,15 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "support/attempts.hpp"
-#include "support/sanitized.hpp"
+#include "support/machine.hpp"
+
+using namespace detp;
+using namespace detp::sim;
+using support::MemoryLimit;
 
 // Compares predicted memory with the peak that the system reports for the process. Each run has a process of its own,
 // so that it cannot reuse another run's heap. Arrays of 128 KiB or more return to the system when they are freed, so
 // the peak does not include free memory that the heap keeps.
-
-using namespace detp;
-using namespace detp::sim;
 
 namespace {
 
@@ -218,5 +219,24 @@ TEST_SUITE("memory") {
                   measured.peak / mebi, measured.predicted / measured.peak, as_predicted ? "" : " !");
       CHECK_MESSAGE(as_predicted, what);
     }
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("pairs that would not fit in memory are refused before allocation; the hits alone are found") {
+    const std::vector<Disc> discs(1000, Disc{{0, 0, 0}, {0, 0, 1}, 1});
+    const std::vector<Ray> rays(2000, Ray{{0.1, 0.2, -3}, {0, 0, 1}});
+    const Problem problem = make_problem(rays, discs);
+    const MemoryLimit limit(0x1p23);  // the pairs take 16 MB
+    for (const Technique technique : {Technique::brute_force, Technique::octree})
+      for (const bool plain : {false, true}) {
+        Candidate candidate{technique, {}};
+        if (technique == Technique::octree) candidate.parameters = OctreeParameters{1};
+        INFO("name(technique) ", name(technique), ", plain ", plain);
+        CHECK(run(problem, candidate, {.engine = plain ? Engine::plain : Engine::simd}).total_hits == 2'000'000);
+        CHECK_THROWS_WITH_AS(
+            (void)run(problem, candidate, {.pairs = true, .engine = plain ? Engine::plain : Engine::simd}),
+            doctest::Contains("the pairs would take"), std::length_error);
+      }
   }
 }

@@ -12,8 +12,8 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "support/allocations.hpp"
-#include "support/exact_candidates.hpp"
-#include "support/sanitized.hpp"
+#include "support/candidates.hpp"
+#include "support/machine.hpp"
 
 using namespace detp;
 using namespace detp::sim;
@@ -180,9 +180,8 @@ TEST_SUITE("searcher") {
     CHECK(whole != searcher.search(view, scratch, {.standard_error = true}).standard_error);
   }
 
-  TEST_CASE(
-      "A view is read in pieces; results are those of all rays at once, to the last bit, and errors have the ray's "
-      "number") {
+  TEST_CASE("A view is read in pieces; results are those of all rays at once, errors have the ray's number" *
+            doctest::test_suite("long")) {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20, 0.15, 3);
     std::vector<Ray> rays = rays_of(5, 450'000);
     std::vector<std::uint64_t> photons;

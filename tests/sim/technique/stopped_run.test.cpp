@@ -11,7 +11,9 @@
 namespace detp::sim {
 namespace {
 
+using support::bounded_work_of;
 using support::LoggedWork;
+using support::StopAfterWork;
 
 const std::vector<Disc>& small_discs() {
   static const std::vector<Disc> all = uniform_discs(Body::cube, 2, 1000, 0.08, 4);
@@ -97,24 +99,15 @@ TEST_SUITE("known answer") {
       const std::vector<Ray> rays = lines(count);
       for (const SearchCase& search_case : search_cases()) {
         if (search_case.engine == Engine::plain && count > 10'000) continue;
-        CAPTURE(name(search_case.candidate.technique));
-        CAPTURE(describe(search_case.candidate));
-        CAPTURE(count);
-        std::uint64_t total = 0;
-        {
-          const LoggedWork logged;
-          CHECK_FALSE(run_case(search_case, rays, {}).stopped);
-          total = logged.total();
-        }
+        INFO("name(search_case.candidate.technique) ", name(search_case.candidate.technique),
+             ", describe(search_case.candidate) ", describe(search_case.candidate), ", count ", count);
+        const double total = bounded_work_of([&] { CHECK_FALSE(run_case(search_case, rays, {}).stopped); });
         for (const double share : {0.1, 0.6}) {
-          std::stop_source source;
-          const LoggedWork logged([&](std::uint64_t done) {
-            if (static_cast<double>(done) >= share * static_cast<double>(total)) source.request_stop();
-          });
-          const Outcome outcome = run_case(search_case, rays, source.get_token(), true);
+          const StopAfterWork stop(share * total);
+          const Outcome outcome = run_case(search_case, rays, stop.token(), true);
           if (!outcome.stopped) continue;  // no check came after that
           check_stopped(outcome, rays);
-          CHECK(static_cast<double>(logged.total()) < share * static_cast<double>(total) + 10 * StopCheck::most_work);
+          CHECK(stop.total() < share * total + 10.0 * StopCheck::most_work);
         }
       }
     }
@@ -135,17 +128,9 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("stopped while pairs are sorted, all rays are done and no pair is returned") {
     const std::vector<Ray> rays = lines(10'000);
-    std::uint64_t search = 0;
-    {
-      const LoggedWork logged;
-      static_cast<void>(run_case(search_cases().front(), rays, {}));
-      search = logged.total();
-    }
-    std::stop_source source;
-    const LoggedWork logged([&](std::uint64_t done) {
-      if (done > search + StopCheck::most_work) source.request_stop();
-    });
-    const Outcome outcome = run_case(search_cases().front(), rays, source.get_token(), true);
+    const double search = bounded_work_of([&] { static_cast<void>(run_case(search_cases().front(), rays, {})); });
+    const StopAfterWork stop(search + StopCheck::most_work + 1);
+    const Outcome outcome = run_case(search_cases().front(), rays, stop.token(), true);
     CHECK(outcome.progress.done == rays.size());
     check_stopped(outcome, rays);
   }
@@ -154,16 +139,13 @@ TEST_SUITE("known answer") {
     const std::vector<Ray> rays = lines(40'000);
     for (const SearchCase& search_case : search_cases()) {
       if (search_case.engine == Engine::plain) continue;
-      CAPTURE(name(search_case.candidate.technique));
-      CAPTURE(describe(search_case.candidate));
+      INFO("name(search_case.candidate.technique) ", name(search_case.candidate.technique),
+           ", describe(search_case.candidate) ", describe(search_case.candidate));
       for (const std::uint64_t at : {1, 20, 100}) {
-        std::stop_source source;
-        const LoggedWork logged([&](std::uint64_t done) {
-          if (done >= at * StopCheck::most_work / 2) source.request_stop();
-        });
+        const StopAfterWork stop(0.5 * static_cast<double>(at) * StopCheck::most_work);
         const LinesOfField source_of_lines(enclosing_sphere(small_discs()), 5, rays.size());
         const StreamedOutcome streamed = run_streamed(small_discs(), source_of_lines, search_case.candidate,
-                                                      {.run = {.stop = source.get_token()}, .block = 10'000});
+                                                      {.run = {.stop = stop.token()}, .block = 10'000});
         if (streamed.outcome.stopped) check_stopped(streamed.outcome, rays);
       }
     }
@@ -196,8 +178,8 @@ TEST_SUITE("identity") {
     const std::vector<Ray> rays = lines(70'000);
     for (const SearchCase& search_case : search_cases()) {
       if (search_case.engine == Engine::plain) continue;
-      CAPTURE(name(search_case.candidate.technique));
-      CAPTURE(describe(search_case.candidate));
+      INFO("name(search_case.candidate.technique) ", name(search_case.candidate.technique),
+           ", describe(search_case.candidate) ", describe(search_case.candidate));
       const LoggedWork logged;
       const Outcome outcome = run_case(search_case, rays, {});
       CHECK(logged.bounded());
@@ -213,19 +195,15 @@ TEST_SUITE("identity") {
          {Candidate{Technique::bvh, BvhParameters{}}, Candidate{Technique::octree, OctreeParameters{1}},
           Candidate{Technique::bsp, BspParameters{}}, Candidate{Technique::grid, GridParameters{2}}}) {
       CAPTURE(name(candidate.technique));
-      std::stop_source source;
-      const LoggedWork logged([&](std::uint64_t done) {
-        if (done > 20 * StopCheck::most_work) source.request_stop();
-      });
-      CHECK(run(make_problem(rays, coincident), candidate, {.stop = source.get_token()}).stopped);
-      CHECK(logged.bounded());
+      const StopAfterWork stop(20.0 * StopCheck::most_work + 1);
+      CHECK(run(make_problem(rays, coincident), candidate, {.stop = stop.token()}).stopped);
+      CHECK(stop.bounded());
     }
     const std::vector<Disc> large(2, Disc{.centre = {}, .normal = {0.6, 0.48, 0.64}, .radius = 1});
-    std::stop_source source;
-    const LoggedWork logged([&](std::uint64_t) { source.request_stop(); });
+    const StopAfterWork stop(0);
     const Candidate fine{Technique::grid, GridParameters{200}};
-    CHECK(run(make_problem(std::span(rays).first(10), large), fine, {.stop = source.get_token()}).stopped);
-    CHECK(logged.bounded());
+    CHECK(run(make_problem(std::span(rays).first(10), large), fine, {.stop = stop.token()}).stopped);
+    CHECK(stop.bounded());
   }
 }
 

@@ -13,10 +13,13 @@
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "support/float_candidates.hpp"
+#include "detp/sim/technique/registry.hpp"
+#include "support/candidates.hpp"
+#include "support/same_bytes.hpp"
 
 using namespace detp;
 using namespace detp::sim;
+using support::truth_of;
 
 namespace {
 
@@ -77,21 +80,11 @@ std::vector<Ray> mixed_rays(std::size_t count, double side, std::uint64_t seed) 
   return rays;
 }
 
-/// Decides every pair by the canonical predicate, in double.
-Outcome truth_of(const Problem& problem) { return run(problem, brute, {.pairs = true, .engine = Engine::plain}); }
-
 /// Checks that all exact techniques find the canonical predicate's pairs, and the same bits of irradiance.
 void check_all_agree(const Problem& problem, std::uint64_t least_hits) {
   const Outcome expected = truth_of(problem);
   CHECK(expected.total_hits >= least_hits);
-  for (const Candidate& candidate : tried_candidates()) {
-    CAPTURE(describe(candidate));
-    CAPTURE(name(candidate.technique));
-    const Outcome outcome = run(problem, candidate, {.pairs = true});
-    CHECK(outcome.pairs == expected.pairs);
-    CHECK(outcome.hits == expected.hits);
-    CHECK(outcome.irradiance == expected.irradiance);
-  }
+  support::check_same_by_all(problem, expected, {tried_candidates()});
 }
 
 std::vector<Disc> scaled(std::vector<Disc> discs, double scale, const glm::dvec3& offset) {
@@ -174,12 +167,7 @@ TEST_SUITE("identity") {
     const Problem problem = make_problem(rays, discs);
     const Outcome expected = truth_of(problem);
     CHECK(expected.total_hits > 500);
-    for (const Candidate& candidate : support::float_candidates()) {
-      CAPTURE(name(candidate.technique));
-      const Outcome outcome = run(problem, candidate, {.pairs = true, .engine = Engine::plain});
-      CHECK(outcome.pairs == expected.pairs);
-      CHECK(outcome.irradiance == expected.irradiance);
-    }
+    support::check_same_by_all(problem, expected, {support::float_candidates(), {Engine::plain}});
   }
 
   TEST_CASE("a run without counting finds the same hits and counts nothing but hits") {
@@ -193,6 +181,14 @@ TEST_SUITE("identity") {
       const Outcome timed = run(problem, candidate, {.count = false});
       CHECK(counted.irradiance == timed.irradiance);
       CHECK(timed.counts == Counts<std::uint64_t>{.hits = counted.total_hits});
+    }
+  }
+
+  TEST_CASE("every technique has its own entry, which prepares its search") {
+    for (const Technique technique : all_techniques) {
+      CAPTURE(name(technique));
+      CHECK(sim::search_of(technique).technique == technique);
+      CHECK((sim::search_of(technique).prepare != nullptr));
     }
   }
 }

@@ -328,7 +328,8 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("a rehearsal knows the noise of runs, also of variable-radius, which a short pilot does not") {
+  TEST_CASE("a rehearsal knows the noise of runs, also of variable-radius, which a short pilot does not" *
+            doctest::test_suite("long")) {
     sim::Scene scene = sim::open_scene({.name = "@cornell", .samples = {}});
     constexpr double rays = 1e5;
     constexpr double radius = 0.03;

@@ -96,8 +96,7 @@ TEST_SUITE("error split") {
     }
   }
 
-  TEST_CASE(
-      "negative controls: the naive square of the mean's error contains noise; a reference's error counts as bias") {
+  TEST_CASE("negative controls: the naive square of a mean's error contains noise, a reference's error is bias") {
     const Made all = made(8, 0.4, 0, 0, 1);
     double naive = 0;
     for (std::size_t i = 0; i < samples; ++i) {

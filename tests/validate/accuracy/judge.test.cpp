@@ -49,9 +49,7 @@ RootInterval stated(sim::Scene& scene, sim::Estimator estimator, double radius) 
 }  // namespace
 
 TEST_SUITE("bias is judged by what shares nothing with the estimators") {
-  TEST_CASE(
-      "a floor that a mesh has twice halves area-corrected estimates; the judge sees it, and discs have no such bias" *
-      doctest::test_suite("long")) {
+  TEST_CASE("a floor that is listed twice halves area-corrected estimates only" * doctest::test_suite("long")) {
     sim::Scene twice = floor_under_lamp(true);
     const RootInterval halved = stated(twice, area_corrected, 0.1);
     CHECK(std::abs(halved.value - 0.5) < 0.03);

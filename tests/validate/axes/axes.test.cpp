@@ -57,7 +57,8 @@ TEST_SUITE("Sobol points") {
 }
 
 TEST_SUITE("axes") {
-  TEST_CASE("simulation: random lines have the error of the binomial distribution; better ways have less") {
+  TEST_CASE("simulation: random lines have the error of the binomial distribution; better ways have less" *
+            doctest::test_suite("long")) {
     const auto discs = sim::uniform_discs(sim::Body::cube, 2, 64, 0.3, 1);
     const auto points = simulation_axis(discs, {});
     REQUIRE(points.size() == 10);
@@ -76,7 +77,8 @@ TEST_SUITE("axes") {
     CHECK(starting_with(points, "conditioned, Owen-scrambled Sobol, 32768").error < 0.05 * conditioned.error);
   }
 
-  TEST_CASE("arithmetic: float loses hits far from the origin; the filter and double lose none") {
+  TEST_CASE("arithmetic: float loses hits far from the origin; the filter and double lose none" *
+            doctest::test_suite("long")) {
     const auto points = arithmetic_axis({});
     REQUIRE(points.size() == 8);
     CHECK(starting_with(points, "float, hard").error > 0.1);

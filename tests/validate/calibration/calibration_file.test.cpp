@@ -5,13 +5,20 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "detp/sim/files/file_error.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/validate/base/json.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
+#include "detp/validate/calibration/calibrate_answer.hpp"
+#include "detp/validate/choice/choice.hpp"
 #include "support/scratch_file.hpp"
 #include "support/sealed.hpp"
 
 using namespace detp;
+using validate::costs_in_use;
 
 namespace {
 
@@ -57,11 +64,39 @@ TEST_SUITE("identity") {
         CHECK(stored.simd.threads_of(technique) == written.simd.threads_of(technique));
       }
   }
+
+  TEST_CASE("a choice for rays with different powers has the costs of sums, one for equal powers has not") {
+    const auto discs = sim::uniform_discs(sim::Body::cube_faces, 2, 5000, 0.02, 3);
+    auto rays = sim::LineField(sim::enclosing_sphere(discs), 4).lines(0, 5000);
+    const CostTable costs = validate::built_in_unit_costs();
+    const auto seconds = [&](const CostTable& with) {
+      const sim::Problem problem = sim::make_problem(rays, discs);
+      return validate::choose({.problem = &problem}, with).best().seconds();
+    };
+    const double equal = seconds(costs);
+    const double of_sums = seconds(validate::costs_of_sums(costs));
+    CHECK(of_sums > equal);
+    rays[1234].power = 2;
+    CHECK(seconds(costs) == of_sums);
+  }
+
+  TEST_CASE("a workload cannot be measured on rays without discs: a clear error") {
+    const std::vector<sim::Ray> rays(10);
+    CHECK_THROWS_AS(
+        static_cast<void>(validate::choose({.rays = rays, .rigor = Rigor::estimate}, validate::built_in_unit_costs())),
+        std::invalid_argument);
+  }
+
+  TEST_CASE("techniques that search ray by ray, and the plain engine, add powers anyway") {
+    const CostTable costs = validate::built_in_unit_costs();
+    CHECK(validate::costs_of_sums(costs)[Technique::octree] == costs[Technique::octree]);
+    const CostTable plain = validate::built_in_unit_costs(Engine::plain);
+    CHECK(validate::costs_of_sums(plain) == plain);
+  }
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE(
-      "a doubtful calibration does not replace a better one, but a worse one, an altered one and one of elsewhere") {
+  TEST_CASE("a doubtful calibration does not replace a better one, but a worse, altered or foreign one") {
     const support::ScratchFolder folder;
     const std::string path = folder.path("calibration.json");
     const auto with_error = [](double error) {
@@ -98,8 +133,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE(
-      "a stored calibration of this machine is found; a broken one and one of elsewhere are not, and it says why") {
+  TEST_CASE("a stored calibration of this machine is found; a broken or foreign one is not, and it says why") {
     const support::ScratchFolder folder;
     std::string why = "nothing";
     CHECK_FALSE(validate::find_calibration(folder.path("none.json"), &why));
@@ -115,6 +149,64 @@ TEST_SUITE("known answer") {
     CHECK(why.find("far.json: its cpu is") != std::string::npos);
     CHECK_FALSE(validate::find_calibration(folder.file("altered.json", far), &why));
     CHECK(why.find("does not fit its checksum") != std::string::npos);
+  }
+
+  TEST_CASE("built-in costs are nanoseconds by their symbols; what is not named is 0, but for the touching of memory") {
+    const UnitCosts grid = validate::built_in_unit_costs(Engine::plain)[Technique::grid];
+    CHECK(grid.index_test == 3.34e-9);
+    CHECK(grid.start == doctest::Approx(872e-9));
+    CHECK(grid.streamed == 0);
+    for (const Engine engine : {Engine::simd, Engine::plain})
+      for (const Technique technique : exact_techniques) {
+        const UnitCosts costs = validate::built_in_unit_costs(engine)[technique];
+        CHECK(costs.touch == doctest::Approx(0.054e-9));
+        CHECK(costs.hit > 0);
+      }
+  }
+
+  TEST_CASE("given costs are those of all techniques and engines; without a calibration they are built in") {
+    const validate::CostsInUse given = costs_in_use({.given = UnitCosts{.disc_test = 2e-9}, .calibration = "none"});
+    CHECK(given.plain[Technique::grid].disc_test == 2e-9);
+    CHECK(given.plain.engine == Engine::plain);
+    CHECK_FALSE(given.built_in);
+    CHECK(validate::to_json(given.simd).at("u") == 2e-9);
+    const validate::CostsInUse none = costs_in_use({.calibration = "none"});
+    CHECK(none.built_in);
+    CHECK(none.of(Engine::simd) == validate::built_in_unit_costs());
+    CHECK(validate::to_json(none.simd).at("grid").size() > 3);
+  }
+
+  TEST_CASE("a named calibration of this machine is used, with its error and doubt; one of elsewhere is refused") {
+    const support::ScratchFolder folder;
+    validate::Calibration calibration;
+    calibration.plain = validate::built_in_unit_costs(Engine::plain);
+    calibration.simd = validate::built_in_unit_costs();
+    calibration.simd[Technique::grid].step = 1.25e-8;
+    calibration.left_out_median_error = 0.3;
+    const std::string text = validate::calibration_text(calibration);
+    const validate::CostsInUse found = costs_in_use({.calibration = folder.file("mine.json", text)});
+    CHECK(found.simd[Technique::grid].step == 1.25e-8);
+    CHECK(found.relative_error == calibration.relative_error());
+    CHECK(found.doubt == calibration.doubt());
+    CHECK(found.origin.find("of this machine, calibrated") != std::string::npos);
+    CHECK_THROWS_AS(static_cast<void>(costs_in_use({.calibration = folder.path("missing.json")})), sim::FileError);
+  }
+
+  TEST_CASE("each field of an answer of calibrate has a meaning, and fits are rows under their columns") {
+    for (const validate::FieldText& field : validate::describe_calibrate()) CHECK_FALSE(field.meaning.empty());
+    validate::MeasuredCalibration calibration;
+    calibration.fits.push_back(
+        {{.technique = Technique::grid, .runs = 12, .left_out_errors = {0.1, 0.3}}, {.step = 2e-9}});
+    calibration.thread_fits.push_back({{.technique = Technique::grid, .left_out_errors = {0.5}}, {.start = 1e-5}});
+    const auto rows = validate::calibrate_rows(calibration);
+    const validate::Columns columns = validate::calibrate_columns();
+    for (const validate::Json& row : rows)
+      for (const auto& [column, value] : row.items())
+        CHECK(std::find(columns.begin(), columns.end(), column) != columns.end());
+    CHECK(rows.front().at("left_out_median_error").get<double>() == doctest::Approx(0.2));
+    CHECK(rows.back().at("symbol") == "thread");
+    CHECK(rows.back().at("seconds") == 1e-5);
+    CHECK_FALSE(rows.back().contains("condition"));
   }
 }
 
@@ -141,7 +233,7 @@ TEST_SUITE("bad input") {
     }
   }
 
-  TEST_CASE("a calibration of which any digit was altered is refused") {
+  TEST_CASE("a calibration of which any digit was altered is refused" * doctest::test_suite("long")) {
     const std::string good = validate::calibration_text(some_calibration());
     std::size_t altered = 0;
     for (std::size_t i = 0; i < good.size(); ++i) {
@@ -173,5 +265,10 @@ TEST_SUITE("bad input") {
 
   TEST_CASE("a missing file is refused") {
     CHECK_THROWS_AS(static_cast<void>(validate::read_calibration("/nowhere/calibration.json")), sim::FileError);
+  }
+
+  TEST_CASE("a calibration of no time is refused") {
+    CHECK_THROWS_AS(static_cast<void>(validate::answer(validate::CalibrateRequest{.seconds = 0})),
+                    std::invalid_argument);
   }
 }

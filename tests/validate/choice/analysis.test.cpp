@@ -44,7 +44,8 @@ struct Scene {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("the best is the fastest measured, not predicted; the regret compares the predicted choice with it") {
+  TEST_CASE("the best is the fastest measured, not predicted; the regret compares the predicted choice with it" *
+            doctest::test_suite("long")) {
     const Scene scene(10'000, 10'000);  // 10⁸ tests by brute force
     const auto ranking = scene.wrong_ranking();
     REQUIRE(ranking.front().candidate.technique == Technique::brute_force);
@@ -91,5 +92,29 @@ TEST_SUITE("identity") {
     CHECK(analysis.tried == 0);
     CHECK_FALSE(analysis.best);
     CHECK_FALSE(analysis.regret);
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("the error of a predicted time is split into counts and unit costs; the costliest wrong count is named") {
+    const UnitCosts costs{.cull_test = 2, .disc_test = 1};
+    Prediction predicted{{Technique::sphere_cache, SphereCacheParameters{}}, {.cull_tests = 10, .disc_tests = 100}};
+    predicted.time = price(predicted.counts, costs, predicted.candidate.technique);  // 120
+    const PredictionError error = prediction_error(predicted, {.cull_tests = 20, .disc_tests = 20}, 30, costs);
+    CHECK(error.seconds == doctest::Approx(4));
+    CHECK(error.counts == doctest::Approx(2));
+    CHECK(error.unit_costs == doctest::Approx(2));
+    CHECK(error.worst == "disc_tests");
+    CHECK(error.worst_ratio == doctest::Approx(5));
+  }
+
+  TEST_CASE("if all counts are right, only the unit costs are wrong") {
+    const UnitCosts costs{.index_test = 3, .step = 1};
+    Prediction predicted{{Technique::grid, GridParameters{4}}, {.disc_tests = 10, .steps = 5}};
+    predicted.time = price(predicted.counts, costs, predicted.candidate.technique);  // 35
+    const PredictionError error = prediction_error(predicted, {.disc_tests = 10, .steps = 5}, 7, costs);
+    CHECK(error.counts == doctest::Approx(1));
+    CHECK(error.unit_costs == doctest::Approx(5));
+    CHECK(error.worst_ratio == 1);
   }
 }

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <vector>
 
@@ -11,10 +12,14 @@
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "detp/validate/choice/candidate_json.hpp"
 #include "detp/validate/choice/comparison.hpp"
+#include "detp/validate/choice/plan_basis.hpp"
 
 using namespace detp;
 using doctest::Approx;
+using validate::LateSearcher;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -38,6 +43,29 @@ TEST_SUITE("identity") {
       CHECK(found.hits == all.hits);
       CHECK(found.irradiance == all.irradiance);
     }
+  }
+
+  TEST_CASE("a searcher is built once, when it is needed; after an error the next call tries again") {
+    const std::vector<sim::Disc> discs{{.centre = {0, 0, 0}, .normal = {0, 0, 1}, .radius = 1}};
+    int calls = 0;
+    LateSearcher late([&](const std::stop_token&) {
+      if (++calls == 1) throw std::length_error("no memory");
+      return sim::Searcher(discs, default_candidate(Technique::brute_force));
+    });
+    CHECK_FALSE(late.is_built());
+    CHECK_THROWS_AS(static_cast<void>(late.get()), std::length_error);
+    CHECK_FALSE(late.is_built());
+    const sim::Searcher& first = late.get();
+    CHECK(late.is_built());
+    CHECK(&late.get() == &first);
+    CHECK(calls == 2);
+    CHECK(LateSearcher(sim::Searcher(discs, default_candidate(Technique::brute_force))).is_built());
+  }
+
+  TEST_CASE("every candidate is read back as it was written") {
+    for (const Technique technique : all_techniques)
+      for (const Candidate& candidate : small_variants(technique))
+        CHECK(candidate_of(technique, Json::parse(to_json(candidate).dump())) == candidate);
   }
 }
 
@@ -103,6 +131,12 @@ TEST_SUITE("known answer") {
       seconds.push_back(made.predicted_seconds());
     }
     CHECK(seconds[0] != seconds[1]);
+  }
+
+  TEST_CASE("names have underscores; parameters that are missing have their defaults") {
+    const Candidate tree{Technique::box_tree, BoxTreeParameters{16, 64}};
+    CHECK(to_json(tree) == Json{{"fan_out", 16}, {"leaf", 64}});
+    CHECK(candidate_of(Technique::grid, Json::object()) == default_candidate(Technique::grid));
   }
 }
 
@@ -173,5 +207,14 @@ TEST_SUITE("bad input") {
     sim::SearchScratch scratch;
     const std::vector<sim::Ray> far{{.origin = {1e9, 0, 0}, .direction = {1, 0, 0}}};
     CHECK_THROWS_AS(validate::execute(made, far, scratch), std::invalid_argument);
+  }
+
+  TEST_CASE("unknown parameters and values of another kind or out of range are refused") {
+    for (const Json& bad :
+         {Json(), Json::array(), Json{{"fan_in", 2}}, Json{{"fan_out", "two"}}, Json{{"fan_out", 2.5}},
+          Json{{"fan_out", nullptr}}, Json{{"fan_out", 1}}, Json{{"leaf", UINT64_MAX}}})
+      CHECK_THROWS_AS(static_cast<void>(candidate_of(Technique::box_tree, bad)), std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(candidate_of(Technique::sphere_cache, Json{{"order", "random"}})),
+                    std::invalid_argument);
   }
 }

@@ -14,6 +14,7 @@
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/choice/plan.hpp"
 #include "detp/validate/choice/plan_basis.hpp"
+#include "support/same_bytes.hpp"
 
 using namespace detp;
 using doctest::Approx;
@@ -36,14 +37,6 @@ std::vector<sim::Ray> rays_of_pass(std::uint64_t pass, std::size_t count) {
   return rays;
 }
 
-void check_same(const sim::Outcome& a, const sim::Outcome& b) {
-  CHECK(a.total_hits == b.total_hits);
-  CHECK(a.hits == b.hits);
-  CHECK(a.irradiance == b.irradiance);
-  CHECK(a.pairs == b.pairs);
-  CHECK(a.standard_error == b.standard_error);
-}
-
 /// Whether replans find what new plans find, radius after radius.
 void check_passes(const validate::PlanOptions& options, const validate::Plan& first) {
   sim::SearchScratch scratch;
@@ -58,7 +51,7 @@ void check_passes(const validate::PlanOptions& options, const validate::Plan& fi
     const auto discs = discs_with(radius);
     const auto fresh = validate::plan(discs, rays, options);
     const sim::RunOptions all{.pairs = true, .standard_error = true};
-    check_same(validate::execute(now, rays, scratch, all), validate::execute(fresh, rays, other, all));
+    support::check_same(validate::execute(now, rays, scratch, all), validate::execute(fresh, rays, other, all), all);
     CHECK(now.is_built());
   }
 }

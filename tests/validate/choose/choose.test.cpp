@@ -48,7 +48,8 @@ TEST_SUITE("identity") {
     CHECK(std::adjacent_find(columns.begin(), columns.end()) == columns.end());
   }
 
-  TEST_CASE("with an analysis, all candidates that have a prediction by the rigor of the choice get it") {
+  TEST_CASE("with an analysis, all candidates that have a prediction by the rigor of the choice get it" *
+            doctest::test_suite("long")) {
     ChooseRequest request = request_in_cornell();
     request.analyze = true;
     request.disabled = {Technique::octree};

@@ -193,7 +193,8 @@ void check_caught(const Given& given, const std::string& effect, const std::stri
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("surface samples left out where samples lie on surfaces: the claim about tests is refuted") {
+  TEST_CASE("surface samples left out where samples lie on surfaces: the claim about tests is refuted" *
+            doctest::test_suite("long")) {
     check_caught(built_in("@tree", sim::Field::isotropic), "surface-samples", "tests");
   }
 
@@ -222,7 +223,8 @@ TEST_SUITE("known answer") {
     check_caught(a_few_far_discs(), "clustered-samples", "tests");
   }
 
-  TEST_CASE("photon paths: with no effects the claim about tests is refuted, with those of the evidence it agrees") {
+  TEST_CASE("photon paths: with no effects the claim about tests is refuted, with those of the evidence it agrees" *
+            doctest::test_suite("long")) {
     const Given given = built_in("@tree", sim::Field::photons);
     CHECK(claim_with(given, "auto", "tests").verdict == Verdict::agrees);
     CHECK(claim_with(given, "none", "tests").verdict == Verdict::refuted);

@@ -7,8 +7,6 @@
 namespace detp::support {
 namespace {
 
-using support::ScratchFolder;
-
 const std::string disc_header = "x,y,z,nx,ny,nz,radius\n";
 const std::string ray_header = "ox,oy,oz,dx,dy,dz,length,power\n";
 const std::string ply_header =

@@ -83,7 +83,8 @@ TEST_SUITE("long") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a broken or foreign stored calibration is not used, with a word of why; a named one is refused") {
+  TEST_CASE("a broken or foreign stored calibration is not used, with a word of why; a named one is refused" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     const std::string path = folder.path("cache/detp/calibration.json");
     validate::Calibration calibration;

@@ -12,8 +12,7 @@ namespace {
 const std::string long_run = "run @uniform --samples 100000 --rays 100000 --technique brute-force --threads 1 ";
 
 Json check_stopped(const Finished& finished) {
-  CAPTURE(finished.err);
-  CAPTURE(finished.out);
+  INFO("finished.err ", finished.err, ", finished.out ", finished.out);
   CHECK(finished.signal == 0);
   CHECK(finished.code == 3);
   const Json json = finished.json();
@@ -158,7 +157,7 @@ TEST_SUITE("end to end") {
     }));
   }
 
-  TEST_CASE("an output that nobody reads ends with the time limit, and with a signal") {
+  TEST_CASE("an output that nobody reads ends with the time limit, and with a signal" * doctest::test_suite("long")) {
     const support::ScratchFolder folder;
     const std::string unopened = folder.path("unopened");
     const std::string unread = folder.path("unread");

@@ -30,7 +30,7 @@ double sum_of_shares(const Json& light) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE("results say where the light went and what became of the faces") {
+  TEST_CASE("results say where the light went and what became of the faces" * doctest::test_suite("long")) {
     for (const char* command : {"run @tree --rays 3000", "scene @tree --rays 3000", "choose @tree --rays 3000",
                                 "run @tree --rays 400k --technique box-tree"}) {
       CAPTURE(command);
@@ -61,7 +61,7 @@ TEST_SUITE("end to end") {
     CHECK(detp("run @tree --rays 3000").out.find("% left the scene") != std::string::npos);
   }
 
-  TEST_CASE("walls that emit outwards are named, and nothing is a bare 0") {
+  TEST_CASE("walls that emit outwards are named, and nothing is a bare 0" * doctest::test_suite("long")) {
     const ScratchFolder folder;
     (void)folder.file("cube.mtl", "newmtl w\nKd 0.5\nKe 1\n");
     const std::string outwards = folder.file("outwards.obj", cube(false));
@@ -106,7 +106,8 @@ TEST_SUITE("end to end") {
     CHECK(finished.json().value("geometry", Json()).is_null());
   }
 
-  TEST_CASE("lines of a workload in numbers cross S0 of the given cube, however few samples it has") {
+  TEST_CASE("lines of a workload in numbers cross S0 of the given cube, however few samples it has" *
+            doctest::test_suite("long")) {
     // A line through S0 hits a disc with the probability d^2 / (2 r0^2).
     for (const int samples : {1, 2, 10, 1000}) {
       CAPTURE(samples);

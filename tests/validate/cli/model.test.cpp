@@ -92,8 +92,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("a disc as large as S0 has no sphere, and every ray is tested with every disc") {
     for (const std::string radius : {"1", "1.5", "100"})
       for (const std::string form : {"corrected", "published"}) {
-        CAPTURE(radius);
-        CAPTURE(form);
+        INFO("radius ", radius, ", form ", form);
         const Json json = result_of("model --rays 300 --samples 20 --sphere-radius 1 --costs u=5 --disc-radius " +
                                     radius + " --form " + form);
         CHECK(json.at("k") == 0);
@@ -103,7 +102,8 @@ TEST_SUITE("known answer") {
       }
   }
 
-  TEST_CASE("k is the form's own by default; its best stop is reported, and used on request") {
+  TEST_CASE("k is the form's own by default; its best stop is reported, and used on request" *
+            doctest::test_suite("long")) {
     for (const std::string form : {"published", "corrected"}) {
       CAPTURE(form);
       const std::string line = model_command + "--ratio 0.65 --form " + form;

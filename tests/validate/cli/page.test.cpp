@@ -52,7 +52,8 @@ std::string structure_of(const std::string& html) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE("a report is one page with the answer, its parts and their commands; stdout has the same JSON") {
+  TEST_CASE("a report is one page with the answer, its parts and their commands; stdout has the same JSON" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     const std::string page = folder.path("report.html");
     const Json json = result_of(small_report + page);
@@ -85,7 +86,8 @@ TEST_SUITE("end to end") {
     CHECK(result_of(command.substr(5))["claims"].size() == json["parts"][4]["answer"]["claims"].size());
   }
 
-  TEST_CASE("a report that is stopped has what was known, and says so; a scene without light has no accuracy") {
+  TEST_CASE("a report that is stopped has what was known, and says so; a scene without light has no accuracy" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     const std::string page = folder.path("report.html");
     CHECK(in_attempts(3, [&] {
@@ -113,7 +115,7 @@ TEST_SUITE("end to end") {
     CHECK(folder.entries() == 0);
   }
 
-  TEST_CASE("no text of the answer can change the page's elements") {
+  TEST_CASE("no text of the answer can change the page's elements" * doctest::test_suite("long")) {
     const ScratchFolder folder;
     const std::string page = folder.path("report.html");
     const Finished finished = detp(small_report + page + " --format json");

@@ -97,7 +97,8 @@ std::vector<double> in_order(std::vector<double> values) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE("a closed cube has the same irradiance whatever its indexing: 2 pi by landings") {
+  TEST_CASE("a closed cube has the same irradiance whatever its indexing: 2 pi by landings" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     (void)folder.file("all.mtl", materials);
     std::vector<std::string> files;
@@ -121,7 +122,8 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("results name the vertices of the file, and --crease joins what an edge divides") {
+  TEST_CASE("results name the vertices of the file, and --crease joins what an edge divides" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     (void)folder.file("all.mtl", materials);
     const std::string file = folder.file("cube.obj", cube(0));
@@ -150,7 +152,8 @@ TEST_SUITE("end to end") {
     CHECK(joined.at("answer").at("command").get<std::string>().find("--crease 100") != std::string::npos);
   }
 
-  TEST_CASE("floors and lamps that are listed twice give the light of single ones, also where they scatter") {
+  TEST_CASE("floors and lamps that are listed twice give the light of single ones, also where they scatter" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     (void)folder.file("all.mtl", materials);
     const std::string discs = folder.file("discs.csv", "x,y,z,nx,ny,nz,radius\n0.5,0,0.5,0,1,0,0.2\n");

@@ -5,8 +5,21 @@
 #include <limits>
 #include <stdexcept>
 
+#include "detp/model/rank/choose.hpp"
+#include "detp/sim/base/stopped.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
+#include "detp/validate/map/technique_map.hpp"
+#include "map_support.hpp"
+
 using namespace detp;
 using namespace detp::validate;
+
+namespace {
+
+const Workload workload_in_cell = cube_workload(1000, 1000, 0.02, 1);
+constexpr UnitCosts no_costs{.cull_test = 0, .disc_test = 0, .index_test = 0, .step = 0, .node = 0};
+
+}  // namespace
 
 TEST_SUITE("known answer") {
   TEST_CASE("edges of cells are the geometric means of neighbours; the outer cells are symmetric") {
@@ -33,6 +46,40 @@ TEST_SUITE("known answer") {
     CHECK(default_map_radii().back() == Length{0.16, true});
     CHECK_NOTHROW(static_cast<void>(checked({default_map_rays(), default_map_radii()})));
   }
+
+  TEST_CASE("a cell agrees if the predicted technique was the fastest; overlapping ranges are within noise") {
+    const TechniqueMap map = support::small_map();
+    const CellVerdict same = map.rows[0].cells[0].verdict().value();
+    CHECK(same.agrees);
+    CHECK(same.slower == 0);
+    const CellVerdict other = map.rows[0].cells[1].verdict().value();
+    CHECK_FALSE(other.agrees);
+    CHECK(other.slower == doctest::Approx(3));
+    CHECK_FALSE(other.within_noise);
+    const CellVerdict noisy = map.rows[1].cells[0].verdict().value();
+    CHECK_FALSE(noisy.agrees);
+    CHECK(noisy.slower == doctest::Approx(0.1));
+    CHECK(noisy.within_noise);
+  }
+
+  TEST_CASE("agreement counts measured cells only, and lists the largest loss first") {
+    const TechniqueMap map = support::small_map();
+    const Agreement agreement = agreement_of(map);
+    CHECK(agreement.cells == 3);
+    CHECK(agreement.agree == 1);
+    CHECK(agreement.share() == doctest::Approx(1.0 / 3));
+    CHECK(agreement.within_noise() == 1);
+    REQUIRE(agreement.disagreeing.size() == 2);
+    CHECK(agreement.disagreeing[0].cell == &map.rows[0].cells[1]);
+    CHECK(agreement.disagreeing[1].row == &map.rows[1]);
+    CHECK(agreement.worst_slowdown == doctest::Approx(4));
+    CHECK(agreement.mean_slowdown == doctest::Approx(std::cbrt(1 * 4 * 1.1)));
+  }
+
+  TEST_CASE("without a measured cell there is nothing to agree") {
+    CHECK(agreement_of(TechniqueMap{}).cells == 0);
+    CHECK(agreement_of(TechniqueMap{}).mean_slowdown == 1);
+  }
 }
 
 TEST_SUITE("bad input") {
@@ -49,5 +96,38 @@ TEST_SUITE("bad input") {
     CHECK(checked({rays, {}}).rays.size() == most_axis_values);
     rays.push_back(1e6);
     CHECK_THROWS_WITH_AS(static_cast<void>(checked({rays, {}})), doctest::Contains("at most 40"), std::length_error);
+  }
+
+  TEST_CASE("costs of 0 and a list that disables everything are refused") {
+    CHECK_THROWS_WITH_AS(static_cast<void>(choose_for_cell({.workload = workload_in_cell}, no_costs)),
+                         doctest::Contains("0 s"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(static_cast<void>(choose_for_cell(
+                             {.workload = workload_in_cell, .disabled = {all_techniques.begin(), all_techniques.end()}},
+                             built_in_unit_costs())),
+                         doctest::Contains("no technique is left"), std::invalid_argument);
+  }
+
+  TEST_CASE("a stop request gives no half ranking") {
+    std::stop_source stop;
+    stop.request_stop();
+    CHECK_THROWS_AS(static_cast<void>(choose_for_cell({.workload = workload_in_cell, .stop = stop.get_token()},
+                                                      built_in_unit_costs())),
+                    sim::Stopped);
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("the estimate is the ranking, without disabled techniques") {
+    const auto ranking = model::rank(workload_in_cell, built_in_unit_costs());
+    const Choice all = choose_for_cell({.workload = workload_in_cell}, built_in_unit_costs());
+    CHECK(all.best().candidate == ranking.front().candidate);
+    CHECK(all.candidates.size() == ranking.size());
+    const Technique first = ranking.front().candidate.technique;
+    const Choice rest = choose_for_cell({.workload = workload_in_cell, .disabled = {first}}, built_in_unit_costs());
+    CHECK(rest.candidates.size() == ranking.size() - 1);
+    for (const Prediction& one : ranking) {
+      const auto best = model::best_of(one.candidate.technique, workload_in_cell, built_in_unit_costs());
+      if (one.candidate.technique != first) CHECK(rest.best().time.total() <= 1.01 * best.value().time.total());
+    }
   }
 }

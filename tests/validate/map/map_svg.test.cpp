@@ -1,11 +1,15 @@
 #include "detp/validate/map/map_summary.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <stdexcept>
 
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/validate/picture/labels.hpp"
 #include "detp/validate/picture/svg.hpp"
 #include "map_support.hpp"
+#include "support/pages.hpp"
 #include "support/xml.hpp"
 
 using namespace detp;
@@ -55,6 +59,15 @@ TEST_SUITE("known answer") {
     CHECK(svg.find("nan") == std::string::npos);
     CHECK(svg.find("inf") == std::string::npos);
   }
+
+  TEST_CASE("labels of radii are short; a map is described by its scene") {
+    CHECK(radius_label({0.0025, true}) == "0.25 %");
+    CHECK(radius_label({0.02, false}) == "0.02");
+    CHECK(describe(support::small_map()) == "@small: 50 discs of dimension D = 3.00, isotropic lines");
+    TechniqueMap mixed = support::small_map();
+    mixed.field = sim::Field::mixed;
+    CHECK(describe(mixed) == "@small: 50 discs of dimension D = 3.00, a mixed field");
+  }
 }
 
 TEST_SUITE("identity") {
@@ -76,3 +89,15 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_AS(static_cast<void>(map_svg(TechniqueMap{}, machine, program)), std::invalid_argument);
   }
 }
+
+namespace detp::support {
+
+TEST_SUITE("figures") {
+  TEST_CASE("notebooks draw each technique in the colour that maps have") {
+    const std::string style = source_text("notebooks-data/style.py");
+    for (const Technique technique : exact_techniques)
+      check_says(style, fmt::format("\"{}\": (\"{}\",", name(technique), validate::colour_of(technique)));
+  }
+}
+
+}  // namespace detp::support

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
+#include <set>
 #include <stdexcept>
 
 #include "detp/validate/picture/labels.hpp"
@@ -57,6 +57,36 @@ TEST_SUITE("known answer") {
     CHECK(is_well_formed(svg));
     CHECK(svg.find(">octree<") < svg.find(">grid<"));
   }
+
+  TEST_CASE("labels are short, and round correctly") {
+    CHECK(rays_label(1) == "1");
+    CHECK(rays_label(50) == "50");
+    CHECK(rays_label(100) == "1e2");
+    CHECK(rays_label(300'000) == "3e5");
+    CHECK(rays_label(12'345) == "1.23e4");
+    CHECK(rays_label(99'999) == "1e5");
+    CHECK(rays_label(1e18) == "1e18");
+    CHECK(seconds_label(8.4e-4) == "0.84 ms");
+    CHECK(seconds_label(0.1234) == "123 ms");
+    CHECK(seconds_label(0.9994) == "999 ms");
+    CHECK(seconds_label(0.9996) == "1 s");
+    CHECK(seconds_label(12.34) == "12 s");
+    CHECK(percent_label(0.0499) == "5 %");
+    CHECK(percent_label(1.234) == "123 %");
+    CHECK(percent_label(0.00034) == "0.034 %");
+  }
+
+  TEST_CASE("codes are initials or the first two letters") {
+    CHECK(code_of(Technique::box_tree) == "bt");
+    CHECK(code_of(Technique::octree) == "oc");
+    CHECK(code_of(Technique::sphere_cache_published) == "scp");
+  }
+
+  TEST_CASE("text is white on dark colours and black on light ones") {
+    CHECK(colour_of(Technique::sphere_cache) == "#332288");
+    CHECK(text_colour_on(Technique::sphere_cache) == "#ffffff");
+    CHECK(text_colour_on(Technique::brute_force) == "#000000");
+  }
 }
 
 TEST_SUITE("hard-case") {
@@ -84,5 +114,21 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_AS(static_cast<void>(chart_svg(chart)), std::invalid_argument);
     chart.points.clear();
     CHECK_THROWS_AS(static_cast<void>(chart_svg(chart)), std::invalid_argument);
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("each technique has a code of its own, each exact one also a colour of its own") {
+    std::set<std::string> codes;
+    std::set<std::string_view> colours;
+    std::size_t exact = 0;
+    for (const TechniqueRecord& record : technique_records) {
+      codes.insert(code_of(record.technique));
+      if (!record.exact) continue;
+      colours.insert(colour_of(record.technique));
+      ++exact;
+    }
+    CHECK(codes.size() == technique_records.size());
+    CHECK(colours.size() == exact);
   }
 }

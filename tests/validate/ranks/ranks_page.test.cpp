@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/ranks/ranks.hpp"

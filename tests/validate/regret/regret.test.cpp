@@ -2,16 +2,21 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <stdexcept>
 
+#include "detp/model/rank/choose.hpp"
 #include "detp/validate/bench/workload.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/regret/regret_answer.hpp"
 #include "support/attempts.hpp"
-#include "support/sanitized.hpp"
+#include "support/machine.hpp"
+#include "support/regret_rows.hpp"
+#include "support/workloads.hpp"
 
 using namespace detp;
 using namespace detp::validate;
+using support::regret_row;
 
 namespace {
 
@@ -41,6 +46,29 @@ bool loses(const RegretSummary& summary, std::size_t tier) {
   return summary.tiers.at(tier).regret.all.geometric_mean >
          summary.baselines.at(0).regret.all.geometric_mean * summary.noise.geometric_mean;
 }
+
+const Workload& reason_workload = support::typical;
+
+/// A candidate whose counts and seconds are as predicted.
+Timed as_predicted(const Candidate& candidate) {
+  const Prediction ranked = model::assess(reason_workload, candidate, built_in_unit_costs());
+  Timed one{.contender = {candidate}, .judging = {ranked.time.total()}};
+  for (const auto& [name, term] : count_terms<double>) {
+    for (const auto& [other, counted] : count_terms<std::uint64_t>)
+      if (other == name) one.counts.*counted = static_cast<std::uint64_t>(std::llround(ranked.counts.*term));
+  }
+  return one;
+}
+
+/// The choice is the faster of the two by prediction.
+struct ChoiceAndBest {
+  Timed choice = as_predicted({Technique::box_tree, BoxTreeParameters{8, 32}});
+  Timed best = as_predicted({Technique::box_tree, BoxTreeParameters{4, 256}});
+
+  [[nodiscard]] std::string reason(double noise = 1.01) const {
+    return reason_of_regret(reason_workload, built_in_unit_costs(), choice, best, noise);
+  }
+};
 
 }  // namespace
 
@@ -110,6 +138,144 @@ TEST_SUITE("known answer") {
     CHECK(result.stopped);
     CHECK(result.rows.empty());
     CHECK(result.workloads == 1);
+  }
+
+  TEST_CASE("a choice that is the best, or as fast within the noise, has no other reason") {
+    ChoiceAndBest two;
+    REQUIRE(two.choice.judging[0] < two.best.judging[0]);
+    two.best.judging[0] = two.choice.judging[0] / 1.05;
+    CHECK(two.reason(1.1) == "within the noise");
+    CHECK(two.reason(1 / 1.1) == "within the noise");
+    two.best = two.choice;
+    CHECK(two.reason() == "");
+  }
+
+  TEST_CASE("if right counts misprice the choice, the reason is its unit costs") {
+    ChoiceAndBest two;
+    two.choice.judging[0] = 4 * two.best.judging[0];
+    CHECK(two.reason().starts_with("unit costs: right counts give 0."));
+    CHECK(two.reason().find(", 1 times the best's") != std::string::npos);
+  }
+
+  TEST_CASE("if the choice does more than predicted, the reason is its worst count") {
+    ChoiceAndBest two;
+    two.choice.counts.disc_tests *= 10;
+    two.choice.judging[0] = price(as_expected(two.choice.counts), built_in_unit_costs(), Technique::box_tree).total();
+    REQUIRE(two.choice.judging[0] > two.best.judging[0]);
+    CHECK(two.reason() == "counts: disc_tests of the choice predicted 0.1 times");
+  }
+
+  TEST_CASE("a best that the ranking could not or did not try is a reason of its own") {
+    ChoiceAndBest two;
+    std::swap(two.choice, two.best);
+    CHECK(two.reason().starts_with("the best was not tried: predicted 0."));
+    two.best.contender.candidate = default_candidate(Technique::bvh);
+    CHECK(two.reason() == "bvh, quality low has no closed form");
+  }
+
+  TEST_CASE("a choice that differs from the best only in the number of threads says so") {
+    ChoiceAndBest two;
+    two.choice = two.best;
+    two.choice.contender.threads = 4;
+    two.choice.judging[0] *= 2;
+    CHECK(two.reason() == "costs of threads: 4 chosen, the best takes 1");
+  }
+
+  TEST_CASE("a choice that was abandoned has no counts to compare") {
+    ChoiceAndBest two;
+    two.choice.abandoned = true;
+    two.choice.first_seconds = 1000;
+    CHECK(two.reason().starts_with("the choice was abandoned after 1e+03 s, predicted "));
+  }
+
+  TEST_CASE("figures: the geometric mean, the quantile 0.95, the worst, and the number of lower bounds") {
+    const Figures figures = figures_of(std::vector<Regret>{{1}, {2}, {4, true}, {8}});
+    CHECK(figures.rows == 4);
+    CHECK(figures.geometric_mean == doctest::Approx(std::pow(64, 0.25)));
+    CHECK(figures.p95 == doctest::Approx(4 + 0.85 * 4));
+    CHECK(figures.worst == 8);
+    CHECK(figures.at_least == 1);
+    CHECK(figures_of({}).rows == 0);
+  }
+
+  TEST_CASE("a summary has the regret of a tier in each half, for one number of threads") {
+    const std::vector<RegretRow> rows{regret_row(2, false), regret_row(8, false), regret_row(3, true),
+                                      regret_row(50, true, 2, 2)};
+    const RegretSummary one = summarise(rows, 1);
+    CHECK(one.rows == 3);
+    REQUIRE(one.tiers.size() == 1);
+    CHECK(one.tiers[0].tier == "estimate");
+    CHECK(one.tiers[0].regret.fitted.geometric_mean == doctest::Approx(4));
+    CHECK(one.tiers[0].regret.held_out.geometric_mean == doctest::Approx(3));
+    CHECK(one.tiers[0].regret.all.geometric_mean == doctest::Approx(std::cbrt(48)));
+    CHECK(one.tiers[0].regret.all.worst == 8);
+    const RegretSummary two = summarise(rows, 2);
+    CHECK(two.tiers[0].regret.held_out.worst == 50);
+    CHECK(two.tiers[0].regret.fitted.rows == 0);
+    CHECK(summarise(rows, 3).rows == 0);
+    CHECK(summarise(rows, 3).tiers.empty());
+  }
+
+  TEST_CASE("the constant is the option that is best on the fitted scenes, whatever it does on the others") {
+    std::vector<RegretRow> rows{regret_row(1, false), regret_row(1, false), regret_row(1, true)};
+    rows[0].baselines[0][3]->value = 1.5;
+    rows[1].baselines[0][3]->value = 1.5;
+    rows[2].baselines[0][3]->value = 100;
+    rows[2].baselines[0][1]->value = 1;
+    const BaselineSummary constant = summarise(rows, 1).baselines.at(0);
+    CHECK(constant.option == 3);
+    CHECK(constant.regret.fitted.geometric_mean == doctest::Approx(1.5));
+    CHECK(constant.regret.held_out.geometric_mean == doctest::Approx(100));
+  }
+
+  TEST_CASE("lower bounds count with their value, and figures say how many; missing options do not count") {
+    std::vector<RegretRow> rows{regret_row(1, false, 4), regret_row(1, true, 4)};
+    rows[0].baselines[1][0] = Regret{9, true};
+    rows[1].baselines[1][0].reset();
+    const RegretFigures paper = summarise(rows, 1).baselines.at(1).regret;
+    CHECK(paper.fitted.geometric_mean == doctest::Approx(9));
+    CHECK(paper.fitted.at_least == 1);
+    CHECK(paper.held_out.rows == 0);
+    CHECK(paper.all.rows == 1);
+  }
+
+  TEST_CASE("the price adds the time of choosing, and only counts where the best takes at least 5 ms") {
+    std::vector<RegretRow> rows{regret_row(2, false), regret_row(2, false)};
+    rows[1].best_seconds = 0.001;
+    const Figures price = summarise(rows, 1).tiers[0].price;
+    CHECK(price.rows == 1);
+    CHECK(price.geometric_mean == doctest::Approx(2.5));
+  }
+
+  TEST_CASE("errors of predicted seconds are relative to measured seconds, and leave out runs that were abandoned") {
+    std::vector<RegretRow> rows{regret_row(1, false), regret_row(2, false), regret_row(4, false), regret_row(9, false)};
+    rows[3].choices[0].regret.at_least = true;
+    const PredictionFigures prediction = summarise(rows, 1).tiers[0].prediction;
+    CHECK(prediction.rows == 3);
+    CHECK(prediction.median_error == doctest::Approx(0.5));
+    CHECK(prediction.p95_error == doctest::Approx(0.725));
+    rows.resize(1);
+    rows[0].choices[0].choice.prediction.time = {};
+    CHECK(summarise(rows, 1).tiers[0].prediction.rows == 0);
+  }
+
+  TEST_CASE("noise is a factor of at least 1 in either direction") {
+    std::vector<RegretRow> rows{regret_row(1, false), regret_row(1, true)};
+    rows[0].noise = 0.5;
+    rows[1].noise = 2;
+    const Figures noise = summarise(rows, 1).noise;
+    CHECK(noise.geometric_mean == doctest::Approx(2));
+    CHECK(noise.worst == doctest::Approx(2));
+  }
+
+  TEST_CASE("the worst choices come first, without those that are the best") {
+    std::vector<RegretRow> rows{regret_row(2, false), regret_row(8, true), regret_row(3, true), regret_row(1, true)};
+    rows[3].best = rows[3].choices[0].choice.prediction.candidate;
+    const auto two = worst_choices(rows, 2);
+    REQUIRE(two.size() == 2);
+    CHECK(two[0].row == &rows[1]);
+    CHECK(two[1].row == &rows[2]);
+    CHECK(worst_choices(rows, 10).size() == 3);
   }
 }
 

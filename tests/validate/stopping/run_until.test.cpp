@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
@@ -142,9 +141,7 @@ TEST_SUITE("statistical") {
                                                {{.discs = 10, .hit = 0.1, .spread = 1.5, .pieces = 7}, 0.1}}) {
       const Light& light = one.first;
       const double target = one.second;
-      CAPTURE(light.discs);
-      CAPTURE(light.group);
-      CAPTURE(light.hit);
+      INFO("light.discs ", light.discs, ", light.group ", light.group, ", light.hit ", light.hit);
       const Coverage found = coverage(light, target, runs);
       CHECK(found.kept >= least);
       CHECK(found.inside >= 170);  // both ends: 90 %

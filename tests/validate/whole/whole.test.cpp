@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "support/attempts.hpp"
+#include "support/machine.hpp"
 #include "support/run_support.hpp"
-#include "support/sanitized.hpp"
 
 using namespace detp;
 using namespace detp::support;
@@ -39,7 +39,8 @@ TEST_SUITE("limit") {
 }
 
 TEST_SUITE("end to end") {
-  TEST_CASE("a run predicts its whole wait and its memory, and measures both; choose says the same") {
+  TEST_CASE("a run predicts its whole wait and its memory, and measures both; choose says the same" *
+            doctest::test_suite("long")) {
     for (const std::string line :
          {"@cornell --rays 1e5", "@cornell --rays 2e6", "@terrain:7 --rays 1e4", "@uniform --samples 1e4 --rays 1e6",
           "@cornell --rays 3e5 --estimator triangle-hits", "@cornell --rays 3e5 --estimator variable-radius",

@@ -3,10 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <stdexcept>
 #include <vector>
 
 #include "detp/sim/geometry/random.hpp"
+#include "detp/sim/lists/simd/binary_tree.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -53,9 +53,7 @@ TEST_SUITE("identity") {
       const auto pilot = all.pilot(300, all_subtrees);
       for (const int fan_out : {2, 3, 8, 16})
         for (const int leaf : {4, 8, 30, 64, 1000}) {
-          CAPTURE(samples);
-          CAPTURE(fan_out);
-          CAPTURE(leaf);
+          INFO("samples ", samples, ", fan_out ", fan_out, ", leaf ", leaf);
           const auto predicted = pilot.counts({fan_out, leaf});
           const Counts<double> counted = all.counted({fan_out, leaf});
           for (const CountTerm<double>& term : count_terms<double>) {
@@ -76,6 +74,21 @@ TEST_SUITE("identity") {
     CHECK(counts.placements == 3000);
     CHECK(counts.references == 3000);
   }
+
+  TEST_CASE("the builder of box trees splits a node by the constants that the closed forms use") {
+    const float area = 2;
+    const float children = 3;
+    const float below = 5;
+    const double as_inner = box_tree_split::cull * area + box_tree_split::list * children + below;
+    for (int discs = 1; discs <= 2 * box_tree_split::largest_leaf; ++discs) {
+      CAPTURE(discs);
+      const sim::stream::NodeCost node(area, static_cast<std::uint32_t>(discs), children, below);
+      CHECK(node.inner == (static_cast<double>(discs) * area > as_inner));
+      CHECK(node.cost == doctest::Approx(node.inner ? as_inner : static_cast<double>(discs) * area).epsilon(1e-6));
+      const sim::stream::NodeCost costly(area, static_cast<std::uint32_t>(discs), children, 1000);
+      CHECK(costly.inner == (discs > box_tree_split::largest_leaf));
+    }
+  }
 }
 
 TEST_SUITE("known answer") {
@@ -84,8 +97,7 @@ TEST_SUITE("known answer") {
       const Piloted all(20'000, 0.01, 2000, 7, body);
       const auto pilot = all.pilot(2000, all_subtrees);
       for (const BoxTreeParameters shape : {BoxTreeParameters{4, 8}, {8, 32}, {16, 128}, {8, 2000}}) {
-        CAPTURE(shape.fan_out);
-        CAPTURE(shape.leaf);
+        INFO("shape.fan_out ", shape.fan_out, ", shape.leaf ", shape.leaf);
         const Counts<double> predicted = pilot.counts(shape).counts;
         const Counts<double> counted = all.counted(shape);
         CHECK(predicted.cull_tests == Approx(counted.cull_tests).epsilon(0.03));

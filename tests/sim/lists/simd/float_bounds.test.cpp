@@ -11,7 +11,6 @@
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "support/float_search.hpp"
 #include "support/float_shares.hpp"
 #include "support/hard_scene.hpp"
 

@@ -1,11 +1,27 @@
 #include <doctest/doctest.h>
 
+#include "detp/validate/cli/bench/bench_report.hpp"
 #include "support/command.hpp"
+#include "support/csv_answer.hpp"
+#include "support/regret_rows.hpp"
 
 namespace detp::support {
 namespace {
 
 const std::string small = "bench @cornell --field photons --rays 200,1000 --disc-radius 1%,0.05 --repeat 2 ";
+
+cli::Result report_of(std::vector<validate::RegretRow> rows, const std::vector<int>& threads = {1}) {
+  validate::RegretAnswer answer{.set = {{}, {"sponza: not here"}}, .threads = threads};
+  answer.result.rows = std::move(rows);
+  answer.result.workloads = answer.result.done = answer.result.rows.size();
+  answer.summarise_all();
+  return cli::report(answer, {});
+}
+
+validate::RegretRow at_least(validate::RegretRow row) {
+  row.baselines.back()[0]->at_least = true;
+  return row;
+}
 
 }  // namespace
 
@@ -105,6 +121,121 @@ TEST_SUITE("end to end") {
                    {"bench @tree --techniques photon-map", "does not find all hits"},
                    {"bench @uniform --field photons", "light"},
                    {"bench missing.obj", "missing.obj"}});
+  }
+
+  TEST_CASE("bench --regret that is stopped shows its results so far and ends with code 3" *
+            doctest::test_suite("long")) {
+    const Finished finished = detp("bench --regret --time-limit 0.2 --format json");
+    CHECK(finished.code == 3);
+    CHECK(finished.err.empty());
+    CHECK(finished.json().at("stopped") == true);
+    CHECK(finished.json().at("stopped_after").at("unit") == "workloads");
+    CHECK(finished.json().at("inputs").at("regret") == true);
+  }
+
+  TEST_CASE("bench --regret refuses what it cannot run, with the reason") {
+    check_refused({{"bench --regret nowhere", "@courtyard"},
+                   {"bench --regret @uniform --field photons", "photons"},
+                   {"bench --regret --effort great", "great"},
+                   {"bench --regret --rays 100", "--regret"},
+                   {"bench --regret --samples 100", "--regret"},
+                   {"bench --regret --disc-radius 1%", "--regret"},
+                   {"bench --regret --techniques grid", "--regret"},
+                   {"bench --regret --embree-modes all", "--regret"},
+                   {"bench --regret --repeat 3", "--regret"},
+                   {"bench --regret --most-hits 1e5", "--regret"},
+                   {"bench --regret --costs t=x", "t"},
+                   {"bench --regret --calibration missing.json", "missing.json"},
+                   {"bench @tree --costs t=x", "t"},
+                   {"bench @tree --calibration missing.json", "missing.json"}});
+  }
+}
+
+TEST_SUITE("long") {
+  TEST_CASE("bench --regret on one scene has its workloads and their figures") {
+    const Json json = result_of("bench --regret @uniform --threads 2 --calibration none");
+    CHECK(json.at("inputs").at("scenes") == Json{"@uniform"});
+    const std::size_t workloads = json.at("inputs").at("workloads");
+    CHECK(json.at("rows").size() == json.at("summary").at("tiers").size() * workloads);
+    for (const Json& row : json.at("rows")) {
+      CHECK(row.at("scene") == "@uniform");
+      CHECK(row.at("threads") == 2);
+      CHECK(row.at("held_out") == false);
+    }
+    const Json& summary = json.at("summary");
+    CHECK(summary.at("threads") == 2);
+    CHECK(summary.at("regret").at("estimate").at("fitted").at("workloads") == workloads);
+    CHECK(summary.at("regret").at("estimate").at("held_out").at("geometric_mean").is_null());
+    CHECK(json.at("unit_costs").get<std::string>().find("built in") != std::string::npos);
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("the JSON of --regret has the figures of tiers and baselines, in all and by halves and threads") {
+    const auto json = report_of({regret_row(2, false), regret_row(8, true), regret_row(3, true, 2, 2)}, {1, 2}).json;
+    const auto& regret = json.at("summary").at("regret");
+    for (const char* who :
+         {"estimate", "best_constant", "usual_shape", "paper_rule", "always_embree", "always_brute_force"})
+      for (const char* figure : {"geometric_mean", "p95", "worst"}) {
+        CHECK(regret.at(who).at(figure).get<double>() > 1);
+        CHECK(regret.at(who).at("fitted").contains(figure));
+        CHECK(regret.at(who).at("held_out").contains(figure));
+      }
+    CHECK(regret.at("estimate").at("geometric_mean").get<double>() == doctest::Approx(4));
+    CHECK(regret.at("estimate").at("fitted").at("worst") == 2);
+    CHECK(regret.at("estimate").at("held_out").at("worst") == 8);
+    CHECK(regret.at("best_constant").at("technique") == "box-tree");
+    CHECK_FALSE(regret.at("paper_rule").contains("technique"));
+    CHECK(json.at("summary").at("prediction").at("median_error").get<double>() == doctest::Approx(0.6875));
+    CHECK(json.at("summary").at("prediction").contains("p95_error"));
+    CHECK(json.at("summary").at("price").at("geometric_mean").get<double>() == doctest::Approx(std::sqrt(2.5 * 8.5)));
+    CHECK(json.at("summary").at("noise").at("geometric_mean") == 1);
+    REQUIRE(json.at("summary").at("by_threads").size() == 2);
+    CHECK(json.at("summary").at("by_threads")[1].at("regret").at("estimate").at("worst") == 3);
+    CHECK(json.at("rows").size() == 3);
+    CHECK(json.at("left_out").size() == 1);
+  }
+
+  TEST_CASE("the CSV of --regret has a row for each workload, number of threads and tier") {
+    const auto rows = csv_records(report_of({at_least(regret_row(2, false)), regret_row(8, true)}).csv);
+    REQUIRE(rows.size() == 3);
+    CHECK(rows[0].front() == "scene");
+    CHECK(rows[0].back() == "reason");
+    const auto field = [&](std::size_t row, const std::string& column) {
+      const auto place = std::find(rows[0].begin(), rows[0].end(), column) - rows[0].begin();
+      REQUIRE(place < std::ssize(rows[0]));
+      return rows[row].at(static_cast<std::size_t>(place));
+    };
+    CHECK(field(1, "scene") == "@tree");
+    CHECK(field(1, "held_out") == "false");
+    CHECK(field(2, "held_out") == "true");
+    CHECK(field(1, "rays") == "1200");
+    CHECK(field(1, "tier") == "estimate");
+    CHECK(field(1, "technique") == "box-tree");
+    CHECK(field(1, "best_technique") == "grid");
+    CHECK(field(1, "regret") == "2");
+    CHECK(field(1, "always_brute_force_regret") == "2");
+    CHECK(field(1, "always_brute_force_abandoned") == "true");
+    CHECK(field(2, "always_brute_force_abandoned") == "false");
+    CHECK(field(1, "reason") == "unit costs");
+  }
+
+  TEST_CASE("the text of --regret has a line for each tier and baseline, marks lower bounds, and lists the worst") {
+    const std::string text = report_of({at_least(regret_row(2, false)), regret_row(8, true)}).text;
+    CAPTURE(text);
+    CHECK(text.find("best constant") != std::string::npos);
+    CHECK(text.find(">= 2") != std::string::npos);
+    CHECK(text.find("at least") != std::string::npos);
+    CHECK(text.find("The 2 largest regrets") != std::string::npos);
+    CHECK(text.find("left out  sponza: not here") != std::string::npos);
+    CHECK_FALSE(has_no_number(text));
+  }
+
+  TEST_CASE("without rows, the report of --regret has no figures and is no error") {
+    const cli::Result empty = report_of({});
+    CHECK(empty.json.at("rows").empty());
+    CHECK(empty.json.at("summary").at("regret").empty());
+    CHECK(empty.text.find("0 workloads") != std::string::npos);
   }
 }
 

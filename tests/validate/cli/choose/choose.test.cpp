@@ -1,4 +1,7 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <set>
 
 #include "support/command.hpp"
 
@@ -25,7 +28,7 @@ void check_ranked(const Json& json) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE("a workload without a scene is ranked by predicted time") {
+  TEST_CASE("a workload without a scene is ranked by predicted time" * doctest::test_suite("long")) {
     for (const std::string workload :
          {"--rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2", "--rays 1 --samples 1 --disc-radius 1e-3",
           "--rays 1e18 --samples 1e18 --disc-radius 1e-9", "--rays 1e6 --samples 10 --disc-radius 50%",
@@ -59,7 +62,8 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("with --front-facing, choose, model and run predict half of the hits, and as many tests") {
+  TEST_CASE("with --front-facing, choose, model and run predict half of the hits, and as many tests" *
+            doctest::test_suite("long")) {
     const std::string numbers = "--rays 2000 --samples 1000 --disc-radius 0.05 --scene-side 2";
     const std::string scene = "@uniform --rays 2000 --samples 1000 --disc-radius 2%";
     const auto check_half = [](const Json& both, const Json& fronts) {
@@ -111,6 +115,92 @@ TEST_SUITE("end to end") {
     check_ranked(json);
     CHECK(json.at("choice").at("technique") == "brute-force");
     CHECK(json.at("choice").at("predicted_seconds").get<double>() == doctest::Approx(0.01));
+  }
+
+  TEST_CASE("a disabled technique is neither ranked nor run" * doctest::test_suite("long")) {
+    const auto technique_of = [](const std::string& arguments) {
+      return result_of("choose " + arguments).at("choice").at("technique").get<std::string>();
+    };
+    const std::string scene = "@uniform --samples 2000 --rays 2000 --disc-radius 2%";
+    CHECK(technique_of(scene) == "box-tree");
+    CHECK(technique_of(scene + " --disable box-tree") != "box-tree");
+    CHECK(technique_of(scene + " --disable box-tree,grid --rigor estimate") != "box-tree");
+    const std::set<std::string> disabled{"bvh", "grid", "octree", "ray-map", "bsp"};
+    const Json analysed = result_of("choose " + scene + " --disable bvh,grid,octree,ray-map,bsp --analyze");
+    for (const Json& candidate : analysed.at("candidates")) CHECK(disabled.count(candidate.at("technique")) == 0);
+    check_refused(
+        {{"choose " + scene + " --disable tree", "sphere-tree"},
+         {"choose " + scene + " --disable box-tree --rigor pilot", "box-tree"},
+         {"choose " + scene + " --disable brute-force,sphere-cache,cell-spheres,sphere-tree,box-tree,octree,grid",
+          "leaves no technique"}});
+  }
+
+  TEST_CASE("--technique names the only techniques that are considered, with every rigor" *
+            doctest::test_suite("long")) {
+    const std::string scene = "@uniform --samples 2000 --rays 2000 --disc-radius 2%";
+    const auto techniques_of = [&](const std::string& arguments) {
+      std::set<std::string> techniques;
+      const Json json = result_of("choose " + scene + arguments);
+      for (const Json& candidate : json.at("candidates")) techniques.insert(candidate.at("technique"));
+      return techniques;
+    };
+    using Names = std::set<std::string>;
+    CHECK(techniques_of(" --technique grid,octree") == Names{"grid", "octree"});
+    CHECK(techniques_of(" --technique box-tree") == Names{"box-tree"});
+    CHECK(techniques_of(" --technique box-tree,brute-force --rigor structural") == Names{"box-tree", "brute-force"});
+    CHECK(techniques_of(" --technique box-tree,grid --rigor pilot --disable grid") == Names{"box-tree"});
+    CHECK(techniques_of(" --technique cell-spheres --rigor measure") == Names{"cell-spheres"});
+    CHECK(techniques_of(" --technique bvh,grid --rigor measure") == Names{"bvh", "grid"});
+    const Json grid = result_of("choose " + scene + " --technique grid");
+    CHECK(grid.at("choice").at("parameters") == result_of("run " + scene + " --technique grid").at("parameters"));
+    CHECK(grid.at("inputs").at("disabled").size() == 9);
+    CHECK(result_of("choose " + scene).at("inputs").at("disabled").empty());
+    const Json map =
+        result_of("choose @uniform --samples 2000 --map --rays 100,1000 --disc-radius 2% --technique octree");
+    for (const Json& cell : map.at("cells")) CHECK(cell.at("predicted").at("technique") == "octree");
+    check_refused({{"choose " + scene + " --technique gird", "did you mean grid?"},
+                   {"choose " + scene + " --technique grid --disable grid", "--technique with --disable leaves no"},
+                   {"choose " + scene + " --technique bvh", "--technique leaves no technique"},
+                   {"choose " + scene + " --technique grid --rigor pilot", "box-tree may not be chosen"},
+                   {"choose " + scene + " --technique photon-map", "photon-map is never chosen"}});
+  }
+
+  TEST_CASE("tips say with which inputs the choice is another one") {
+    const std::string scene = "choose @uniform --samples 2000 --disc-radius 2% --calibration none --threads 1 --rays ";
+    const auto fewer_rays = [](const Json& json) {
+      for (const Json& tip : json.at("tips"))
+        if (tip.at("input") == "rays" && tip.at("change") == "technique" && tip.at("ratio") < 1) return tip;
+      return Json();
+    };
+    for (const auto& row : {std::pair(60, ""), {60, " --rigor structural"}, {100, " --rigor estimate"}}) {
+      const int rays = row.first;
+      const std::string rigor = row.second;  // not a structured binding, which CAPTURE cannot take
+      CAPTURE(rigor);
+      const std::string line = scene + std::to_string(rays) + rigor;
+      const Json json = result_of(line);
+      REQUIRE(json.at("choice").at("technique") == "box-tree");
+      const Json tip = fewer_rays(json);
+      REQUIRE(tip.is_object());
+      CHECK(tip.at("technique") == "brute-force");
+      CHECK(tip.at("threads") == 1);
+      CHECK(tip.at("parameters").is_object());
+      CHECK(tip.at("at").get<double>() == doctest::Approx(rays * tip.at("ratio").get<double>()));
+      CHECK(json.at("tips_seconds") > 0);
+      for (const char* const detail : {"", " --verbose"}) {
+        const std::string text = std::regex_replace(detp(line + detail).out, std::regex("\n {10}"), " ");
+        CHECK(text.find("\ntips      ") != std::string::npos);
+        CHECK(text.find("brute-force is faster with ") != std::string::npos);
+        CHECK(text.find(fmt::format("{:.0f} rays or fewer", tip.at("at").get<double>())) != std::string::npos);
+      }
+      const auto fewer = static_cast<int>(0.9 * tip.at("at").get<double>());
+      const Json there = result_of(fmt::format("{}{}{}", scene, fewer, rigor));
+      CHECK(there.at("choice").at("technique") == "brute-force");
+    }
+    const Json without = result_of(scene + "150 --disable brute-force");
+    CHECK_FALSE(fewer_rays(without).is_object());
+    CHECK(without.at("tips_range").at("rays")[0] == 38);
+    CHECK(detp(scene + "150 --disable brute-force").out.find("wins for d from 0.01 to 0.16, for 38 to 600 rays") !=
+          std::string::npos);
   }
 }
 

@@ -54,13 +54,11 @@ std::string line_of_label(const std::string& text, const std::string& label) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE(
-      "the text of choose has at most 12 lines of 120 columns, with scene, effects, choice, rival, tips and price") {
+  TEST_CASE("the text of choose has all its parts on at most 12 lines of 120 columns" * doctest::test_suite("long")) {
     for (const std::string& request : short_requests()) {
       const Finished finished = detp(request);
       const std::string& text = finished.out;
-      CAPTURE(request);
-      CAPTURE(text);
+      INFO("request ", request, ", text ", text);
       CHECK(finished.code == 0);
       CHECK(std::count(text.begin(), text.end(), '\n') <= 12);
       for (const std::string label :
@@ -110,7 +108,8 @@ TEST_SUITE("end to end") {
     CHECK(mentions(detp(in_numbers).out, ": closed forms alone\n"));
   }
 
-  TEST_CASE("--verbose has the candidates, what was ruled out, tips, the paper's rule, all effects and the symbols") {
+  TEST_CASE("--verbose has the candidates, what was ruled out, tips, the paper's rule, all effects and the symbols" *
+            doctest::test_suite("long")) {
     for (const std::string& request : {in_tree, in_cube}) {
       const Json json = result_of(request);
       const std::string text = detp(request + " --verbose").out;
@@ -150,7 +149,8 @@ TEST_SUITE("end to end") {
     CHECK(mentions(detp(in_tree + " --verbose").out, ", too close to tell"));
   }
 
-  TEST_CASE("--rigor measure without --analyze has the measured choice, whether it was predicted, and no table") {
+  TEST_CASE("--rigor measure without --analyze has the measured choice, whether it was predicted, and no table" *
+            doctest::test_suite("long")) {
     const std::string text = detp(in_cube + " --rigor measure").out;
     CAPTURE(text);
     CHECK(mentions(line_of_label(text, "choice    "), ", the fastest of "));
@@ -172,7 +172,7 @@ TEST_SUITE("end to end") {
     CHECK(std::count(finished.out.begin(), finished.out.end(), '\n') <= 12);
   }
 
-  TEST_CASE("the default map has at most 12 lines") {
+  TEST_CASE("the default map has at most 12 lines" * doctest::test_suite("long")) {
     const std::string text = detp("choose @cornell --samples 500 --map").out;
     CAPTURE(text);
     CHECK(std::count(text.begin(), text.end(), '\n') <= 12);

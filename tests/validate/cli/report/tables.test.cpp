@@ -76,7 +76,8 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("choose and scene: CSV has the effects, warnings and reasons of JSON in every row") {
+  TEST_CASE("choose and scene: CSV has the effects, warnings and reasons of JSON in every row" *
+            doctest::test_suite("long")) {
     const support::ScratchFolder folder;
     std::string discs = "x,y,z,nx,ny,nz\n";
     for (int i = 0; i < 100; ++i) discs += std::to_string(0.01 * i) + ",0,0,0,0,1\n";
@@ -109,7 +110,8 @@ TEST_SUITE("end to end") {
       }
   }
 
-  TEST_CASE("choose --analyze: CSV has JSON's lists of candidates that were tried and abandoned, and of errors") {
+  TEST_CASE("choose --analyze: CSV has JSON's lists of candidates that were tried and abandoned, and of errors" *
+            doctest::test_suite("long")) {
     const auto rows = csv_of(
         "choose @uniform --samples 5000 --rays 5000 --disc-radius 1% --analyze "
         // With these costs, brute force has by far the shortest predicted time.

@@ -108,7 +108,7 @@ TEST_SUITE("kills") {
 }
 
 TEST_SUITE("end to end") {
-  TEST_CASE("pilots that were stopped before they knew enough are made again, not kept") {
+  TEST_CASE("pilots that were stopped before they knew enough are made again, not kept" * doctest::test_suite("long")) {
     const ScratchFolder folder;
     const std::string checkpoint = folder.path("checkpoint.json");
     const std::string command = "accuracy @cornell --target-error 1% --format json --checkpoint " + checkpoint;
@@ -120,7 +120,8 @@ TEST_SUITE("end to end") {
     CHECK(Json::parse(content_of(checkpoint)).at("state").at("pilot").is_null());
   }
 
-  TEST_CASE("a run that was stopped goes on; checkpoints of other runs, damaged ones and wrong options are refused") {
+  TEST_CASE("a run that was stopped goes on; checkpoints of other runs, damaged ones and wrong options are refused" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     const std::string checkpoint = folder.path("checkpoint.json");
     std::string run;
@@ -165,7 +166,8 @@ TEST_SUITE("end to end") {
 }
 
 TEST_SUITE("end to end") {
-  TEST_CASE("a resumed run keeps the technique of its checkpoint, unless another one is asked for by name") {
+  TEST_CASE("a resumed run keeps the technique of its checkpoint, unless another one is asked for by name" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     const std::string checkpoint = folder.path("checkpoint.json");
     const auto calibration = [&](const std::string& name, double factor) {  // of the tests of rays with discs

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "support/csv_answer.hpp"
@@ -10,7 +8,8 @@
 namespace detp::support {
 
 TEST_SUITE("run --estimator") {
-  TEST_CASE("each estimator answers, names itself, and gives the room about the same mean irradiance") {
+  TEST_CASE("each estimator answers, names itself, and gives the room about the same mean irradiance" *
+            doctest::test_suite("long")) {
     for (const char* estimator : {"disc", "variable-radius", "nearest", "area-corrected", "triangle-hits"}) {
       CAPTURE(estimator);
       const ScratchFolder folder;
@@ -43,7 +42,8 @@ TEST_SUITE("run --estimator") {
     CHECK(table["rows"][1]["estimator"] == "triangle-hits");
   }
 
-  TEST_CASE("gather: 1 on the sunlit floor, and the room's irradiance as others find it, without rays and photons") {
+  TEST_CASE("gather: 1 on the sunlit floor, and the room's irradiance as others find it, without rays and photons" *
+            doctest::test_suite("long")) {
     const Json floor = result_of("run @sunlit --estimator gather --samples 300 --paths 100");
     CHECK(floor["mean_irradiance"].get<double>() == doctest::Approx(1).epsilon(1e-6));
     CHECK(floor["inputs"]["paths"] == 100);
@@ -81,7 +81,8 @@ TEST_SUITE("run --estimator") {
     CHECK(text.out.find("rays ") == std::string::npos);
   }
 
-  TEST_CASE("gather with discs of a file beside a scene, and in a table with others, which alone have rays") {
+  TEST_CASE("gather with discs of a file beside a scene, and in a table with others, which alone have rays" *
+            doctest::test_suite("long")) {
     const ScratchFolder folder;
     const std::string discs = folder.file("two.csv", "x,y,z,nx,ny,nz,radius\n.5,0,.5,0,1,0,.1\n.4,0,.6,0,1,0,.1\n");
     const Json two = result_of("run @furnace --estimator gather --paths 4000 --discs " + discs);

@@ -133,8 +133,7 @@ TEST_SUITE("long") {
       const std::string table = folder.path(fmt::format("discs{}.csv", seed));
       const Arguments words = hard.arguments(table);
       const Finished run = detp(words);
-      CAPTURE(line_of(words));
-      CAPTURE(run.err);
+      INFO("line_of(words) ", line_of(words), ", run.err ", run.err);
       // Before any ray is searched: the pilot of a bias finds no light.
       if (run.code == 2 && run.err.find("hardly meet the samples") != std::string::npos) {
         ++without_bias;

@@ -15,8 +15,6 @@
 namespace detp::support {
 namespace {
 
-using support::ScratchFolder;
-
 /// The definition of a hit (validate/cli/README.md), coded as simply as possible.
 bool crosses(const sim::Ray& ray, const sim::Disc& disc, bool front_facing) {
   const double slope = glm::dot(ray.direction, disc.normal);
@@ -72,9 +70,7 @@ std::vector<std::string> sorted_rows(const std::string& csv) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE(
-      "--form changes the prediction beside the counts, not the counts: the published one is that of model at the "
-      "run's k") {
+  TEST_CASE("--form changes the prediction and not the counts: the published one is that of model at the run's k") {
     const std::string numbers = " --rays 5000 --samples 4000 --disc-radius 0.02 --scene-side 2 --technique ";
     const auto ask = [&](const std::string& rest) { return result_of("run" + numbers + rest); };
     const Json published = ask("sphere-cache --ratio 0.65 --form published");
@@ -160,8 +156,7 @@ TEST_SUITE("end to end") {
     CHECK("disc,hits,irradiance\n" + without == written(""));
   }
 
-  TEST_CASE(
-      "photons of a ray file: their rays may be apart, pairs have the file's numbers, errors are of whole photons") {
+  TEST_CASE("photons of a ray file: their rays may be apart, pairs have the file's numbers, errors are of photons") {
     const ScratchFolder folder;
     const std::string discs = folder.file("discs.csv", "x,y,z,nx,ny,nz,radius\n0,0,0,0,0,1,1\n");
     std::string together = "ox,oy,oz,dx,dy,dz,photon\n";
@@ -227,7 +222,8 @@ TEST_SUITE("end to end") {
     CHECK(run_and_read(data.ply, "--technique octree") == run_and_read(data.csv, "--technique grid"));
   }
 
-  TEST_CASE("lines and photon paths: every technique writes the bytes that brute force writes") {
+  TEST_CASE("lines and photon paths: every technique writes the bytes that brute force writes" *
+            doctest::test_suite("long")) {
     check_all_agree(words("run @uniform --samples 2000 --rays 2000"), best_techniques());
     check_all_agree(words("run @cornell --rays 3000"), best_techniques());
     check_all_agree(words("run @cornell --rays 2000 --front-facing --disc-radius 8% --samples 1500"),
@@ -300,7 +296,8 @@ TEST_SUITE("end to end") {
     CHECK(more.find("predicted / counted") != std::string::npos);
   }
 
-  TEST_CASE("the plain engine finds the hits of the float kernels, and the result names it") {
+  TEST_CASE("the plain engine finds the hits of the float kernels, and the result names it" *
+            doctest::test_suite("long")) {
     for (const std::string technique :
          {"brute-force", "sphere-cache --ratio 0.6", "cell-spheres --depth 3", "sphere-tree --fan-out 4 --leaf 16"}) {
       CAPTURE(technique);
@@ -355,7 +352,8 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("reading the scene and making its rays have two numbers; reading rays from a file is reading") {
+  TEST_CASE("reading the scene and making its rays have two numbers; reading rays from a file is reading" *
+            doctest::test_suite("long")) {
     const support::ScratchFolder folder;
     const std::string rays = folder.path("rays.csv");
     CHECK(in_attempts(5, [&] {

@@ -9,9 +9,6 @@
 namespace detp::support {
 namespace {
 
-using support::content_of;
-using support::ScratchFolder;
-
 /// Runs detp in a shell. `before` stands before the command, `after` after its arguments.
 struct Shell {
   ScratchFolder folder;

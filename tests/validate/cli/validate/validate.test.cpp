@@ -9,7 +9,8 @@
 namespace detp::support {
 
 TEST_SUITE("end to end") {
-  TEST_CASE("--ratio counts sphere caches of these Q, --form shows one form of each claim; both forms are judged") {
+  TEST_CASE("--ratio counts sphere caches of these Q, --form shows one form of each claim; both forms are judged" *
+            doctest::test_suite("long")) {
     const std::string line =
         "validate --samples 500 --rays 32000 --disc-radius 0.05 --experiments sphere-cache --ratio 0.5 ";
     const Json both = result_of(line);
@@ -109,7 +110,7 @@ TEST_SUITE("end to end") {
       CHECK(by_id.contains(std::string(id) + ".corrected"));
   }
 
-  TEST_CASE("if nothing was hit, unknown values are left out of JSON and CSV") {
+  TEST_CASE("if nothing was hit, unknown values are left out of JSON and CSV" * doctest::test_suite("long")) {
     const std::string sparse = "validate --samples 1 --rays 1";
     const Finished json = detp(sparse + " --format json");
     CHECK(json.err.empty());
@@ -127,7 +128,7 @@ TEST_SUITE("end to end") {
       CHECK_FALSE(has_no_number(detp(sparse + " --format " + format).out));
   }
 
-  TEST_CASE("JSON, CSV and text say which effects the predictions have, and why") {
+  TEST_CASE("JSON, CSV and text say which effects the predictions have, and why" * doctest::test_suite("long")) {
     const std::string sparse = "validate @cornell --samples 20 --rays 100 --effects uneven-rays";
     const Json json = detp(sparse + " --format json").json();
     const std::vector<CsvRow> rows = csv_rows(detp(sparse + " --format csv").out);
@@ -144,8 +145,7 @@ TEST_SUITE("end to end") {
     CHECK(detp("validate --samples 1 --rays 1 --format json").json().at("effects").size() == json.at("effects").size());
   }
 
-  TEST_CASE(
-      "controls are caught, and refuted published forms are documented, in JSON, CSV and text; the summary is first") {
+  TEST_CASE("controls are caught, refuted published forms are documented" * doctest::test_suite("long")) {
     const std::string line = "validate --samples 200 --rays 3200";
     const Finished finished = detp(line + " --format json");
     CHECK(finished.code == 0);  // published forms are refuted, but no corrected one
