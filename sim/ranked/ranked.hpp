@@ -5,8 +5,8 @@
 #include "detp/sim/geometry/disc_source.hpp"
 #include "detp/sim/ranks/ranks.hpp"
 #include "detp/sim/search/photon_sums.hpp"
-#include "part_results.hpp"
 #include "detp/sim/technique/streamed.hpp"
+#include "part_results.hpp"
 
 /// A search of streamed rays that ranks share.
 namespace detp::sim {

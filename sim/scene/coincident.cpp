@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "box_pairs.hpp"
+#include "clip.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
-#include "clip.hpp"
 #include "plate.hpp"
 
 namespace detp::sim {

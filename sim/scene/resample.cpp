@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "detp/sim/base/stop_check.hpp"
-#include "detp/sim/geometry/random.hpp"
 #include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/random.hpp"
 
 namespace detp::sim {
 namespace {

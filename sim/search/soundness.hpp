@@ -8,8 +8,8 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/base/stop_check.hpp"
-#include "detp/sim/geometry/paths.hpp"
 #include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/paths.hpp"
 #include "extents.hpp"
 
 /// The checks of make_problem, and its normalisation of directions and normals. All throw Stopped, except normalised().

@@ -11,6 +11,8 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/geometry/geometry.hpp"
@@ -67,6 +69,17 @@ inline std::string file_error_of(const std::function<void()>& call) {
     return error.what();
   }
   return {};
+}
+
+/// Checks that each content is refused with a message that contains `prefix` and its own part. `error_of` gives the message.
+inline void check_errors(const std::vector<std::pair<std::string, std::string>>& contents_and_parts,
+                         const std::function<std::string(const std::string&)>& error_of,
+                         const std::string& prefix = "") {
+  for (const auto& row : contents_and_parts) {
+    CAPTURE(row.first.substr(0, 200));
+    const std::string message = error_of(row.first);
+    CHECK_MESSAGE(message.find(prefix + row.second) != std::string::npos, message);
+  }
 }
 
 /// Calls `read` with the content truncated at every length, and with `flips` random changes of 1 to 4 bytes each.

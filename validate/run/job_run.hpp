@@ -9,9 +9,9 @@
 
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/estimate/estimate.hpp"
+#include "detp/sim/ranked/ranked.hpp"
 #include "detp/sim/ranks/ranks.hpp"
 #include "detp/sim/reference/missed_light.hpp"
-#include "detp/sim/ranked/ranked.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/job/job.hpp"

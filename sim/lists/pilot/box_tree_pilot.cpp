@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "detp/sim/base/stop_check.hpp"
-#include "detp/sim/lists/simd/load_rays.hpp"
 #include "detp/sim/lists/simd/list_search.hpp"
+#include "detp/sim/lists/simd/load_rays.hpp"
 
 namespace detp::sim::stream {
 namespace {

@@ -7,9 +7,9 @@
 #include <stop_token>
 #include <vector>
 
+#include "detp/model/vocabulary/ray_blocks.hpp"
 #include "detp/sim/lists/simd/binary_tree.hpp"
 #include "detp/sim/lists/simd/block_search.hpp"
-#include "detp/model/vocabulary/ray_blocks.hpp"
 #include "pilot_counts.hpp"
 
 /// Predicts the counts of any box tree over given discs and rays from a sample of both, without building the tree.

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "detp/sim/base/stop_check.hpp"
-#include "detp/sim/geometry/hilbert.hpp"
 #include "detp/sim/geometry/curve.hpp"
+#include "detp/sim/geometry/hilbert.hpp"
 #include "detp/sim/search/hit_collector.hpp"
 
 /// Lists of rays, culled by spheres: shared by all techniques with spheres.

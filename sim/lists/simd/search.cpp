@@ -8,8 +8,8 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/run_memory.hpp"
 #include "disc_results.hpp"
-#include "ray_blocks.hpp"
 #include "list_search.hpp"
+#include "ray_blocks.hpp"
 
 namespace detp::sim::stream {
 namespace {

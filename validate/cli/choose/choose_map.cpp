@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "choose_text.hpp"
-#include "detp/sim/files/table_writer.hpp"
 #include "detp/sim/files/output_file.hpp"
+#include "detp/sim/files/table_writer.hpp"
 #include "detp/validate/answer/parts.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/cli/options/cost_options.hpp"

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/sim/files/table_writer.hpp"
 #include "detp/sim/files/obj_file.hpp"
 #include "detp/sim/files/output_place.hpp"
+#include "detp/sim/files/table_writer.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/checkpoint/checkpoint_file.hpp"
 #include "detp/validate/cli/text/messages.hpp"
