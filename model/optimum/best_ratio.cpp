@@ -1,9 +1,12 @@
 #include "best_ratio.hpp"
 
+#include <fmt/format.h>
+#include <boost/math/tools/minima.hpp>
+
 #include <algorithm>
 #include <array>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "best_published_ratio.hpp"
@@ -215,6 +218,13 @@ SphereStops sphere_stops(const Workload& workload, const UnitCosts& costs, Form 
   if (max == 0) return {};
   return {max, form == Form::published ? published::best_stop(workload, costs, ratio)
                                        : best_stop(workload, costs, ratio).spheres};
+}
+
+double optimal_ratio(double dimension) {
+  if (!(dimension >= 1 && dimension <= 3))
+    throw std::invalid_argument(fmt::format("sample dimension must be from 1 to 3 (got {})", dimension));
+  const long double beyond = dimension - 2;
+  return static_cast<double>(std::exp(beyond == 0 ? -0.5L : -std::log1p(beyond / 2) / beyond));
 }
 
 }  // namespace detp::model

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "all_effects.hpp"
-#include "sample_extent.hpp"
+#include "sample_dimension.hpp"
 
 namespace detp::sim {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/lists/simd/kernels-inl.hpp"
-#include "detp/sim/lists/simd/load_rays.hpp"
+#include "detp/sim/lists/simd/ray_blocks.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace detp::sim {

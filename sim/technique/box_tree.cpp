@@ -10,7 +10,7 @@
 #include "detp/sim/lists/simd/search.hpp"
 #include "detp/sim/search/run_memory.hpp"
 #include "list_memory.hpp"
-#include "registry.hpp"
+#include "technique.hpp"
 
 namespace detp::sim {
 namespace {

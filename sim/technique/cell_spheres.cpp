@@ -1,5 +1,5 @@
 #include "detp/sim/lists/cell_walk.hpp"
-#include "registry.hpp"
+#include "technique.hpp"
 #include "walk_index.hpp"
 
 namespace detp::sim {

@@ -14,7 +14,7 @@
 #include "detp/sim/search/irradiance.hpp"
 #include "detp/sim/search/run_memory.hpp"
 #include "detp/sim/search/sort_pairs.hpp"
-#include "registry.hpp"
+#include "technique.hpp"
 
 namespace detp::sim {
 namespace {

@@ -11,7 +11,7 @@
 #include "detp/sim/search/hit_collector.hpp"
 #include "detp/sim/search/run_memory.hpp"
 #include "ray_map_lists.hpp"
-#include "registry.hpp"
+#include "technique.hpp"
 
 namespace detp::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/ray_box.hpp"
 #include "detp/sim/lists/simd/list_search.hpp"
-#include "detp/sim/lists/simd/load_rays.hpp"
+#include "detp/sim/lists/simd/ray_blocks.hpp"
 #include "detp/sim/search/hit_collector.hpp"
 
 /// The lists of rays of a ray map's cells, and what is done with them, by each engine.

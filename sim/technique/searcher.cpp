@@ -6,9 +6,9 @@
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/search/soundness.hpp"
-#include "registry.hpp"
 #include "streamed.hpp"
 #include "successive_search.hpp"
+#include "technique.hpp"
 
 namespace detp::sim {
 

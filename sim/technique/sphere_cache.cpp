@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "detp/sim/lists/sphere_walk.hpp"
-#include "registry.hpp"
+#include "technique.hpp"
 #include "walk_index.hpp"
 
 namespace detp::sim {

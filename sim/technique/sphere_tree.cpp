@@ -6,7 +6,7 @@
 #include "detp/sim/lists/sphere_nodes.hpp"
 #include "detp/sim/search/run_memory.hpp"
 #include "list_memory.hpp"
-#include "registry.hpp"
+#include "technique.hpp"
 
 namespace detp::sim {
 namespace {

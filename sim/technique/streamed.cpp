@@ -14,9 +14,9 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/irradiance.hpp"
-#include "registry.hpp"
 #include "streamed_search.hpp"
 #include "successive_search.hpp"
+#include "technique.hpp"
 
 namespace detp::sim {
 

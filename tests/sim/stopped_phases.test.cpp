@@ -21,7 +21,7 @@
 #include "detp/sim/scene/resample.hpp"
 #include "detp/sim/scene/vertices.hpp"
 #include "detp/sim/search/index.hpp"
-#include "detp/sim/technique/registry.hpp"
+#include "detp/sim/technique/technique.hpp"
 #include "support/scratch_file.hpp"
 #include "support/work_log.hpp"
 

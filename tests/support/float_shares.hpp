@@ -9,7 +9,7 @@
 #include "detp/sim/geometry/predicates.hpp"
 #include "detp/sim/lists/simd/disc_tree.hpp"
 #include "detp/sim/lists/simd/list_search.hpp"
-#include "detp/sim/lists/simd/load_rays.hpp"
+#include "detp/sim/lists/simd/ray_blocks.hpp"
 
 /// Measures how much of their error bounds the float kernels use.
 namespace detp::support {

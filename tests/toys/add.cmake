@@ -33,8 +33,8 @@ add(model/vocabulary/technique.hpp "};\n\n[[nodiscard]] constexpr const Techniqu
 
 # 3 and 4. The search, and its line.
 configure_file(${here}/search.cpp ${copy}/sim/technique/each_pair.cpp COPYONLY)
-add(sim/technique/registry.cpp ";\n\nnamespace {" ", prepare_each_pair")
-add(sim/technique/registry.cpp "}};\n\n}  // namespace" "    {Technique::each_pair, prepare_each_pair},\n")
+add(sim/technique/technique.cpp ";\n\nnamespace {" ", prepare_each_pair")
+add(sim/technique/technique.cpp "}};\n\n}  // namespace" "    {Technique::each_pair, prepare_each_pair},\n")
 
 # 5 and 6. The closed form, if there is one, and its line.
 configure_file(${here}/closed_form.cpp ${copy}/model/techniques/each_pair.cpp COPYONLY)

@@ -15,7 +15,7 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
-#include "detp/sim/technique/registry.hpp"
+#include "detp/sim/technique/technique.hpp"
 #include "plan_basis.hpp"
 
 namespace detp::validate {

@@ -13,11 +13,27 @@
 #include "detp/sim/search/outcome.hpp"
 #include "detp/validate/accuracy/judged_samples.hpp"
 #include "detp/validate/choice/plan.hpp"
-#include "random_order.hpp"
 #include "run_until.hpp"
 
 /// Searches batches of rays until the irradiance is known well enough.
 namespace detp::validate {
+
+/// The numbers 0 … count - 1, each once, in an order that the seed decides. Takes no memory.
+class RandomOrder {
+ public:
+  RandomOrder(std::uint64_t count, std::uint64_t seed);
+
+  /// `place` < count.
+  [[nodiscard]] std::uint64_t operator[](std::uint64_t place) const;
+
+ private:
+  /// A permutation of the numbers of 2 half_bits_ bits.
+  [[nodiscard]] std::uint64_t permuted(std::uint64_t number) const;
+
+  std::uint64_t count_;
+  std::uint64_t seed_;
+  int half_bits_ = 1;
+};
 
 /// Rays of whole photons. They must stay until the next batch is made.
 struct RayBatch {

@@ -10,7 +10,6 @@
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/optimum/best_published_ratio.hpp"
 #include "detp/model/optimum/best_ratio.hpp"
-#include "detp/model/optimum/optimal_ratio.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/sphere_cache/sphere_cache.hpp"

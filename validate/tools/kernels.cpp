@@ -23,7 +23,7 @@
 
 #include "detp/sim/lists/simd/instruction_sets.hpp"
 #include "detp/sim/lists/simd/list_search.hpp"
-#include "detp/sim/lists/simd/load_rays.hpp"
+#include "detp/sim/lists/simd/ray_blocks.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "kernel_table.hpp"

@@ -9,7 +9,7 @@
 
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/lists/simd/list_search.hpp"
-#include "detp/sim/lists/simd/load_rays.hpp"
+#include "detp/sim/lists/simd/ray_blocks.hpp"
 
 namespace detp::sim::stream {
 namespace {

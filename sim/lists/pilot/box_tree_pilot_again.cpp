@@ -4,7 +4,7 @@
 #include "box_tree_pilot.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/lists/simd/list_search.hpp"
-#include "detp/sim/lists/simd/load_rays.hpp"
+#include "detp/sim/lists/simd/ray_blocks.hpp"
 
 /// A second, larger sample of rays for nodes that few rays of the first sample reach.
 namespace detp::sim::stream {

@@ -1,4 +1,4 @@
-#include "load_rays.hpp"
+#include "ray_blocks.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "detp/sim/lists/simd/load_rays.cpp"

@@ -1,13 +1,26 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "detp/sim/base/parallel.hpp"
 #include "detp/sim/search/run_memory.hpp"
-#include "load_rays.hpp"
+#include "ray_list.hpp"
 
 /// Reads the rays block by block.
 namespace detp::sim::stream {
+
+/// Common properties of rays.
+struct RayTraits {
+  bool segments = false;        ///< at least one ray is a segment
+  std::optional<double> power;  ///< the power of each ray, if all powers are equal
+};
+
+/// Converts rays to the frame's coordinates and sorts them by class; their numbers start at 0. Leaves out rays that
+/// stay far from S₀. There must be at least one ray, and at most 2³¹. Each list must be empty and have room for all
+/// rays and their ends. Fills the padding behind each list with zeros: the kernels compute with it, and whatever is in
+/// reused memory may be subnormal numbers, with which a test of few rays takes ten times as long.
+RayTraits load_rays(std::span<const Ray> rays, const Frame& frame, RayLists& lists);
 
 /// A block of rays, loaded.
 class Block {

@@ -11,7 +11,7 @@
 #include "detp/model/accuracy/estimate_error.hpp"
 #include "detp/model/hierarchy/cell_spheres.hpp"
 #include "detp/model/lines/line_measure.hpp"
-#include "detp/model/optimum/optimal_ratio.hpp"
+#include "detp/model/optimum/best_ratio.hpp"
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
 #include "detp/model/sphere_cache/sphere_count.hpp"

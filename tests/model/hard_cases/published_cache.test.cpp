@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "detp/model/disc_index/disc_index_published.hpp"
-#include "detp/model/optimum/optimal_ratio.hpp"
+#include "detp/model/optimum/best_ratio.hpp"
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
 #include "run.hpp"
 

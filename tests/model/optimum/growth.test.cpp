@@ -10,7 +10,7 @@
 
 #include "detp/model/disc_index/disc_index_published.hpp"
 #include "detp/model/optimum/best_published_ratio.hpp"
-#include "detp/model/optimum/optimal_ratio.hpp"
+#include "detp/model/optimum/best_ratio.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "detp/model/sphere_cache/sphere_count.hpp"
 #include "support/not_a_length.hpp"

@@ -16,7 +16,6 @@
 #include "detp/sim/ranked/disc_parts.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
-#include "detp/sim/technique/registry.hpp"
 #include "detp/sim/technique/technique.hpp"
 
 using namespace detp;

@@ -13,7 +13,6 @@
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/technique/registry.hpp"
 #include "support/candidates.hpp"
 #include "support/same_bytes.hpp"
 
