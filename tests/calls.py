@@ -1,7 +1,7 @@
 """Checks, on objects of which each holds one source, which folder calls functions of which folder. A folder may call those
 that its README.md allows it to include, in "May include:", and those that these may include. No folders may call each other
 in a circle. This finds functions that are declared where they are used, which the check of includes (layers.cmake) cannot
-see. It also fails if two objects define an inline function of one name with different sizes: the linker keeps one of them.
+see.
 
 Use: calls.py SOURCE BUILD
 """
@@ -29,20 +29,20 @@ def objects_of(build):
 
 
 def names_of(paths):
-    """Yields (object, kind, size, name) of the symbols of all objects."""
+    """Yields (object, kind, name) of the symbols of all objects."""
     for first in range(0, len(paths), 200):
-        text = subprocess.run(["nm", "-A", "-S", *paths[first : first + 200]], check=True, capture_output=True, text=True).stdout
+        text = subprocess.run(["nm", "-A", *paths[first : first + 200]], check=True, capture_output=True, text=True).stdout
         for line in text.splitlines():
-            match = re.match(r"(.*?):(?:[0-9a-f]+ +(?:([0-9a-f]+) )?|\s+)([A-Za-z]) (\S+)$", line)
+            match = re.match(r"(.*?):[0-9a-f ]*([A-Za-z]) (\S+)$", line)
             if match:
-                yield match[1], match[3], int(match[2] or "0", 16), match[4]
+                yield match[1], match[2], match[3]
 
 
 @functools.cache
 def reachable(source, folder):
     """The folders that a folder may include, and those that these may include."""
     line = re.search(r"^May include: (.*)\.$", (source / folder / "README.md").read_text(), re.M)
-    direct = [one for one in line[1].split(", ") if one != "nothing"] if line else []
+    direct = [one for one in line[1].split(", ") if not one.startswith("nothing")] if line else []
     return set(direct).union(*(reachable(source, one) for one in direct))
 
 
@@ -54,10 +54,8 @@ def main(source, build):
     folder_of = objects_of(build)
     if not folder_of:
         sys.exit(f"{build} has no objects with one source each; build the preset alone")
-    defined, needed, sizes = {}, collections.defaultdict(set), collections.defaultdict(dict)
-    for path, kind, size, name in names_of(list(folder_of)):
-        if kind == "W" and "detp" in name and size > 0:
-            sizes[name].setdefault(size, path)
+    defined, needed = {}, collections.defaultdict(set)
+    for path, kind, name in names_of(list(folder_of)):
         if kind in "TDBR":
             defined[name] = path
         elif kind == "U":
@@ -74,9 +72,6 @@ def main(source, build):
         for other, (path, name) in sorted(others.items()):
             if other not in allowed:
                 faults.append(f"{folder} calls {plain(name)} of {other}, which its README.md does not allow ({pathlib.Path(path).name})")
-    for name, places in sizes.items():
-        if len(places) > 1:
-            faults.append(f"{plain(name)} has different sizes: " + ", ".join(f"{size} bytes in {path}" for size, path in places.items()))
     left = {folder: set(others) for folder, others in calls.items()}
     while True:
         last = [folder for folder, others in left.items() if not others & left.keys()]

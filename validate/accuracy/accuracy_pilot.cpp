@@ -147,7 +147,7 @@ class PilotMaker::Runs {
       const Found found = runs_of(setting.setting);
       setting.seconds = of_.seconds_of(setting, found.hits / pilot_.rays);
       for (const auto& run : found.irradiance)
-        met_ = met_ || std::ranges::any_of(run, [](double one) { return one > 0; });
+        met_ = met_ || std::ranges::any_of(run, [](double of_sample) { return of_sample > 0; });
       const ErrorSplit split = split_error(found.irradiance, reference.values());
       // a photon that meets several discs brings as many terms
       const double of_photon = std::max(1.0, found.hits / (pilot_.rays * pilot_.photons_per_ray));

@@ -27,8 +27,8 @@ struct PilotMaker::Part {
   double rays = 0;               ///< or backward paths at each sample
 
   /// Where one photon alone hit, or none, the variance is its own square.
-  Part(sim::Outcome outcome, std::size_t rays)
-      : irradiance(std::move(outcome.irradiance)), rays(static_cast<double>(rays)) {
+  Part(sim::Outcome outcome, std::size_t searched)
+      : irradiance(std::move(outcome.irradiance)), rays(static_cast<double>(searched)) {
     for (std::size_t i = 0; i < irradiance.size(); ++i)
       variance.push_back(std::pow(std::min(outcome.standard_error[i], irradiance[i]), 2));
   }

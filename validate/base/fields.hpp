@@ -109,11 +109,11 @@ struct Field {
                   [&](std::string_view term, double) { names.push_back(prefix + std::string(term)); });
     names.push_back(prefix + "tests");
     return by(names, [prefix](const Answer&, const Json& counts) {
-      Json cells = Json::object();
-      for (const auto& [term, count] : counts.items()) cells[prefix + term] = count;
-      cells[prefix + "tests"] =
+      Json terms = Json::object();
+      for (const auto& [term, count] : counts.items()) terms[prefix + term] = count;
+      terms[prefix + "tests"] =
           counts["cull_tests"].template get<double>() + counts["disc_tests"].template get<double>();
-      return cells;
+      return terms;
     });
   }
 

@@ -14,8 +14,8 @@ std::string joined(const std::vector<std::string_view>& symbols) {
 
 /// A fit of costs on one thread, or of those of threads.
 struct FitRow {
-  explicit FitRow(const CostFit& fit, const UnitCostTerm* term = nullptr) : fit(fit), costs(&fit), term(term) {}
-  explicit FitRow(const ThreadFit& fit) : fit(fit), threads(&fit) {}
+  explicit FitRow(const CostFit& of, const UnitCostTerm* of_term = nullptr) : fit(of), costs(&of), term(of_term) {}
+  explicit FitRow(const ThreadFit& of) : fit(of), threads(&of) {}
 
   const FitQuality& fit;
   const CostFit* costs = nullptr;

@@ -155,8 +155,8 @@ std::vector<sim::Ray> rays_of(const TimedWorkload& workload, const std::vector<s
   return rays;
 }
 
-TimedScene::TimedScene(const TimedWorkload& workload, std::size_t place)
-    : place(place), discs(discs_of(workload, place)), rays(rays_of(workload, discs, place)) {
+TimedScene::TimedScene(const TimedWorkload& workload, std::size_t number)
+    : place(number), discs(discs_of(workload, number)), rays(rays_of(workload, discs, number)) {
   constexpr int tries = 3;
   for (int i = 0; i < tries; ++i) {
     sim::Stopwatch watch;

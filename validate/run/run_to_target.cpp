@@ -13,6 +13,7 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/accuracy/accuracy_pilot.hpp"
+#include "detp/validate/base/json.hpp"
 #include "detp/validate/checkpoint/checkpoint_file.hpp"
 #include "detp/validate/job/job.hpp"
 #include "detp/validate/stopping/job_batches.hpp"
