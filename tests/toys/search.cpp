@@ -1,7 +1,7 @@
 #include "detp/sim/search/hit_collector.hpp"
 #include "detp/sim/search/ray_search.hpp"
 #include "detp/sim/search/run_memory.hpp"
-#include "registry.hpp"
+#include "technique.hpp"
 
 namespace detp::sim {
 namespace {
