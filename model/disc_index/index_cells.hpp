@@ -26,7 +26,7 @@ struct Cells {
 
 /// `parts` cells along the longest side of the box grown by d, and as many as needed along the others.
 ///
-/// E and S are computed from the planes that cross a disc (`PlaneCrossings`, index_overlap.hpp; index_mailbox.hpp).
+/// E and S are computed from the planes that cross a disc (`PlaneCrossings`, index_overlap.hpp).
 /// Samples of dimension 2 without an extent of their own lie on the box's faces, in proportion to the faces' areas,
 /// with one coordinate fixed. For dimensions between 2 and 3, volume and faces are interpolated.
 ///

@@ -14,8 +14,8 @@
 /// This is exact if the tree is known (validate/structural/structural_parts.hpp). If only the workload's numbers are
 /// known, the model follows the builder's decisions level by level, on the tree expected for random samples:
 ///
-///   box_tree_cells.hpp      how many cells the curve has on each level, and how many samples a cell expects
-///   box_tree_boxes.hpp      the mean box around m discs in a cell
+///   box_tree_boxes.hpp      how many cells the curve has on each level, how many samples a cell expects, and the mean
+///                           box around m discs in a cell
 ///   box_tree_expected.hpp   which cells are nodes of the binary tree, and which nodes are leaves
 ///   box_tree.cpp            which inner nodes are joined into wide ones
 ///

@@ -23,7 +23,7 @@ struct SampleDimension {
 /// Accuracy   0.1 for 8192 of 10⁵ points uniform in a cube or on its faces.
 [[nodiscard]] SampleDimension sample_dimension(std::vector<std::uint64_t> keys);
 
-/// The extent that samples of this box and dimension fill, if they lie on surfaces with the area; computed from the box
+/// Length, area or volume, by their dimension: the extent that samples of this box and dimension fill, if they lie on surfaces with the area; computed from the box
 /// if the area is 0. Computed from the samples' own box, because samples need not fill the scene's box.
 [[nodiscard]] double extent_on_surfaces(Workload samples, double area);
 

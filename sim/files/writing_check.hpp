@@ -8,6 +8,7 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "output_file.hpp"
 
+/// What writers of files share.
 namespace detp::sim {
 
 /// Checks for a stop request while a file is written.

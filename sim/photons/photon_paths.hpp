@@ -31,7 +31,7 @@ enum class PhotonPowers {
 /// Returns at least `count` rays, one for each straight piece of a path, photon by photon, up to the end of the last photon's
 /// path; a photon's pieces keep their order. With the rays come the numbers of their photons, the distances at which these
 /// met a surface, and the number of photons emitted. Each ray has its photon's power: a light's flux, divided by the number of its photons expected among all that
-/// were emitted; where these are few, with the shares of photon_shares.hpp, or the last path would make a bias. Let gap be 1e-5 of the box's diagonal. A piece starts `gap` beyond the point where the photon was
+/// were emitted; where these are few, with the shares below, or the last path would make a bias. Let gap be 1e-5 of the box's diagonal. A piece starts `gap` beyond the point where the photon was
 /// (halfway to the surface, if that is nearer than 2 gap), and ends `gap` beyond the surface. So it crosses the discs in
 /// the tangent plane where it ends, but not the discs where it starts. A piece that leaves the scene ends on the sphere
 /// around the box's centre whose radius is the box's diagonal; it is dropped if it starts outside this sphere. A photon

@@ -139,7 +139,7 @@ struct Job {
   std::optional<Workload> numbers =
       {};  ///< of a workload in numbers: S₀ and box are its own, not those around the discs
   sim::Notices notices;
-  /// warnings about light that is lost (sim/photons/light_notes.hpp; of a stream, its reader has them), and about a few discs or rays that distort the workload (outliers.hpp)
+  /// warnings about light that is lost (sim/photons/light_ledger.hpp; of a stream, its reader has them), and about a few discs or rays that distort the workload (outliers.hpp)
   std::vector<std::string> warnings;
   bool front_facing = false;
   bool rays_from_file = false;

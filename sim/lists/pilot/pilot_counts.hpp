@@ -36,7 +36,7 @@ struct PilotCounts {
   /// are proportional to σ². Nodes are split as with the pilot's radius.
   ///
   /// Exact at σ = 1 with the pilot's number of rays. Errors for 4000 uniform samples of a cube, or of its faces, with
-  /// d = 0.05, 600 to 15 000 lines, and leaves of 8 and 64 (tests/sim/lists/simd/pilot_counts.test.cpp): up to 13 % for
+  /// d = 0.05, 600 to 15 000 lines, and leaves of 8 and 64 (tests/sim/lists/pilot/pilot_counts.test.cpp): up to 13 % for
   /// σ = 0.5 … 2; up to 34 % for σ = 0.25 … 4, because larger discs make larger leaves. Throws
   /// std::invalid_argument unless the ratio is > 0 and finite, and for a number of rays out of 1 … 1e18.
   [[nodiscard]] Counts<double> at(double radius_ratio, double rays) const;

@@ -54,7 +54,7 @@ class Block {
 [[nodiscard]] bool needs_powers(const Problem& problem, const RunOptions& options);
 
 /// Calls search(block) for one block after another, until all are searched or a stop is requested. All photons of a block
-/// of rays are in one block of photons (photon_blocks.hpp). While a block is searched, another thread, if there is one, loads the
+/// of rays are in one block of photons (photon_sums.hpp). While a block is searched, another thread, if there is one, loads the
 /// next block. Reports the share of the rays before each block.
 template <class Search>
 void for_each_block(const Problem& problem, const Frame& frame, const RunOptions& options, const Search& search) {
