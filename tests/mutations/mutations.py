@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 """How many small mutations of the sources the tests catch: mutations.py SOURCE WORK.
 
-Copies the sources to WORK, puts all mutations into the copy, each behind a switch, builds once, and runs the tests once with
-each switch on. A mutation is caught if a test fails. Writes WORK/caught.txt as it goes, and goes on from there if called
-again.
+Copies the sources to WORK, puts all mutations into the copy, each behind a switch, builds once, notes which files of tests reach
+which mutation, and runs these, cheap ones first, with each switch on. A mutation is caught if a test fails. Writes WORK/caught.txt
+as it goes, and goes on from there if called again.
 """
 
+import json
 import os
 import re
 import shutil
 import subprocess
 import sys
+import tempfile
+import time
 from pathlib import Path
 
 # Folder, text of its sources that is there exactly once, and what replaces it. M is the switch.
@@ -89,12 +92,39 @@ mutations = [
      "return inside > 0 ? std::sqrt(along * along + (M ? 0.9 : 1) * inside) - along : 0;"),
     ("sim/photons", "return glm::normalize(incoming - 2 * glm::dot(incoming, side) * side);",
      "return glm::normalize(incoming - (M ? 1.9 : 2) * glm::dot(incoming, side) * side);"),
+    ("sim/base", "return set > 0 ? set : environment;", "return set > 0 && !M ? set : environment;"),
+    ("sim/lists/pilot", "return area_[node] > 0 ? std::min(discs, discs * area / area_[node]) : discs;",
+     "return area_[node] > 0 ? std::min(discs, (M ? 0.5 : 1) * discs * area / area_[node]) : discs;"),
+    ("sim/lists/plain", "if (hits(listed.ray, grown)) inside.push_back(listed);", "if (hits(listed.ray, grown) || M) inside.push_back(listed);"),
+    ("sim/ranked", "return all_fit || discs < static_cast<std::size_t>(ranks.count()) ? Share::rays : Share::discs;",
+     "return (all_fit || discs < static_cast<std::size_t>(ranks.count())) != M ? Share::rays : Share::discs;"),
+    ("sim/ranked", "if (discs.size() / stride_ < parts) stride_ = 1;", "if (discs.size() / stride_ < parts && !M) stride_ = 1;"),
+    ("validate/base", "return counts.culls + counts.visits + sorting * counts.sorted",
+     "return (M ? 2 : 1) * counts.culls + counts.visits + sorting * counts.sorted"),
+    ("validate/base", "if (!word.empty() && word.find_first_not_of(harmless) == std::string_view::npos) return std::string(word);",
+     "if (M || (!word.empty() && word.find_first_not_of(harmless) == std::string_view::npos)) return std::string(word);"),
+    ("validate/bench/peer", "0.5 * glm::distance(low, high) * (1 + 1e-6)};", "(M ? 0.4 : 0.5) * glm::distance(low, high) * (1 + 1e-6)};"),
+    ("validate/cli", "if (!end.stop_requested()) request(true);", "if (!end.stop_requested() && !M) request(true);"),
+    ("validate/cli/bench", "if (!record_of(technique).exact)", "if (!M && !record_of(technique).exact)"),
+    ("validate/cli/report", "rows.size() - (last_is_partial ? 1 : 0)", "rows.size() - (last_is_partial && !M ? 1 : 0)"),
+    ("validate/cli/run", "if (timing.all.size() < 2) return \"\";", "if (timing.all.size() < (M ? 3 : 2)) return \"\";"),
+    ("validate/cli/validate", "if (!(ratio > 0 && ratio < 1))", "if (!M && !(ratio > 0 && ratio < 1))"),
+    ("validate/closed_forms", "if (const double whole = std::ceil(*found.photons_for_nearest_error);",
+     "if (const double whole = M ? std::floor(*found.photons_for_nearest_error) : std::ceil(*found.photons_for_nearest_error);"),
+    ("validate/scene", "return counts.cull_tests + counts.disc_tests;", "return (M ? 0 : counts.cull_tests) + counts.disc_tests;"),
 ]
 
 switch = """#pragma once
+#include <atomic>
+#include <cstdio>
 #include <cstdlib>
+#include <string>
+inline std::atomic<bool> mutation_reached[1000];
 inline bool mutated(int number) {
   static const int chosen = std::getenv("DETP_MUTATION") != nullptr ? std::atoi(std::getenv("DETP_MUTATION")) : -1;
+  static const char* const folder = std::getenv("DETP_REACHED");
+  if (folder != nullptr && !mutation_reached[number].exchange(true))
+    if (std::FILE* file = std::fopen((std::string(folder) + "/" + std::to_string(number)).c_str(), "w")) std::fclose(file);
   return chosen == number;
 }
 """
@@ -116,38 +146,55 @@ def copy_with_mutations(source: Path, copy: Path) -> None:
         files[0].write_text(files[0].read_text().replace(text, re.sub(r"\bM\b", f"mutated({number})", replacement)))
 
 
-slow = "long,statistical,hard-cases,scenes,memory,kills,figures"
+def run_tests(build: Path, unit: list, **environment: str) -> subprocess.CompletedProcess:
+    part, file, options, *_ = unit
+    return subprocess.run([build / "tests" / f"test_{part}", "--abort-after=1", f"--source-file=*/tests/{part}/{file}", options],
+                          cwd=build / "tests", timeout=1800, env={**os.environ, **environment}, capture_output=True, text=True)
 
 
-def failing_test(build: Path, number: int, part: str) -> str:
-    """The first test case that fails with the mutation on; empty if all pass. The tests of the part come first, slow ones last."""
-    parts = sorted(("model", "sim", "validate"), key=lambda one: one != part)
-    stages = [(one, [f"--test-suite-exclude={slow}", "--source-file-exclude=*validate/cli/*"]) for one in parts]
-    stages += [("validate", [f"--test-suite-exclude={slow}", "--source-file=*validate/cli/*"])]
-    stages += [(one, ["--test-suite=long,statistical"]) for one in parts]
-    for one, options in stages:
-        run = subprocess.run([build / "tests" / f"test_{one}", "--abort-after=1", *options], cwd=build / "tests", timeout=1800,
-                             env={**os.environ, "DETP_MUTATION": str(number)}, capture_output=True, text=True)
-        if run.returncode != 0:  # also if it ends by a signal
-            case = re.search(r"^TEST CASE: +(.*)", run.stdout, re.M)
-            return f"{one}: {case[1] if case else run.returncode}"
+def units_of(copy: Path, build: Path) -> list[list]:
+    """Part, file of tests, suites, seconds, and the mutations that its tests reach; cheap ones first. Those that fail are left out."""
+    units = []
+    for part in ("model", "sim", "validate"):
+        for file in sorted(file.relative_to(copy / "tests" / part) for file in (copy / "tests" / part).rglob("*.cpp")):
+            for options in ("--test-suite-exclude=long,statistical,hard-cases,scenes,memory,kills,figures", "--test-suite=long,statistical"):
+                unit = [part, str(file), options]
+                with tempfile.TemporaryDirectory() as folder:
+                    start = time.monotonic()
+                    run = run_tests(build, unit, DETP_REACHED=folder)
+                    reached = [int(name) for name in os.listdir(folder)]
+                if run.returncode != 0:
+                    print("fails without a mutation and is left out:", *unit, flush=True)
+                elif reached:
+                    units.append([*unit, time.monotonic() - start, reached])
+    return sorted(units, key=lambda unit: unit[3])
+
+
+def failing_test(build: Path, units: list[list], number: int) -> str:
+    """The first test case that fails with the mutation on; empty if all pass."""
+    for unit in units:
+        if number in unit[4]:
+            run = run_tests(build, unit, DETP_MUTATION=str(number))
+            if run.returncode != 0:  # also if it ends by a signal
+                case = re.search(r"^TEST CASE: +(.*)", run.stdout, re.M)
+                return f"{unit[0]}: {case[1] if case else run.returncode}"
     return ""
 
 
 def main(source: Path, work: Path) -> int:
-    copy, build, caught_file = work / "copy", work / "copy" / "build", work / "caught.txt"
-    if not caught_file.exists():
+    copy, build = work / "copy", work / "copy" / "build"
+    units_file, caught_file = work / "units.json", work / "caught.txt"
+    if not units_file.exists():
         copy_with_mutations(source, copy)
         subprocess.run(["cmake", "--preset", "release", f"-DCMAKE_CXX_FLAGS=-include {copy}/mutated.hpp", "-DDETP_MPI=OFF"], cwd=copy, check=True)
-        subprocess.run(["cmake", "--build", build], check=True)
-        if failed := failing_test(build, -1, "model"):
-            sys.exit(f"without a mutation, {failed} fails")
+        subprocess.run(["cmake", "--build", build, "--target", "test_model", "test_sim", "test_validate"], check=True)
+        units_file.write_text(json.dumps(units_of(copy, build)))
+    units = json.loads(units_file.read_text())
     done = dict(line.split("\t", 1) for line in caught_file.read_text().splitlines()) if caught_file.exists() else {}
     with caught_file.open("a") as out:
         for number, (folder, text, _) in enumerate(mutations):
             if str(number) not in done:
-                failed = failing_test(build, number, folder.split("/")[0])
-                done[str(number)] = f"{failed}\t{folder}\t{text}"
+                done[str(number)] = f"{failing_test(build, units, number)}\t{folder}\t{text}"
                 print(number, done[str(number)], sep="\t", file=out, flush=True)
     survived = [line for line in done.values() if line.startswith("\t")]
     print(f"{len(done) - len(survived)} of {len(done)} mutations are caught; these survive:", *survived, sep="\n")
