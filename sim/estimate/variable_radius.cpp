@@ -25,10 +25,13 @@ Part part_of(std::uint64_t photon) {
 struct SomePhotons {
   std::vector<Ray> rays;
   std::vector<std::uint64_t> photons;
+  std::vector<double> further;  ///< powers
 
-  void add(const Ray& ray, std::uint64_t photon) {
-    rays.push_back(ray);
-    photons.push_back(photon);
+  void add(const Problem& problem, std::size_t ray) {
+    rays.push_back(problem.rays()[ray]);
+    photons.push_back(problem.photon(ray));
+    const std::span<const double> powers = problem.further().of(ray);
+    further.insert(further.end(), powers.begin(), powers.end());
   }
 };
 
@@ -37,6 +40,7 @@ Outcome search(const Problem& problem, const SomePhotons& some, std::span<const 
   PathRays paths(some.rays);
   paths.photons = some.photons;
   paths.photon_count = problem.photons_to();
+  paths.further = {some.further, problem.further().bands};
   return run(make_problem(paths, discs, problem.front_facing(), options.threads, options.stop), candidate, options);
 }
 
@@ -60,19 +64,15 @@ DiscResult sum_of(const DiscResult& a, const DiscResult& b) {
 void add(const Outcome& part, Outcome& rest) {
   add_block(part, rest);
   for (std::size_t i = 0; i < rest.hits.size(); ++i) {
-    const auto result = [&](const Outcome& one) {
-      DiscResult found{one.hits[i], one.irradiance[i]};
-      if (one.standard_error.empty()) return found;
-      found.standard_error = one.standard_error[i];
-      found.upper_bound = one.upper_bound[i];
-      return found;
-    };
-    const DiscResult sum = sum_of(result(rest), result(part));
-    rest.hits[i] = sum.hits;
-    rest.irradiance[i] = sum.irradiance;
-    if (rest.standard_error.empty()) continue;
-    rest.standard_error[i] = sum.standard_error;
-    rest.upper_bound[i] = sum.upper_bound;
+    for (std::size_t band = 0; band < rest.bands(); ++band) {
+      BandResults& to = rest.band(band);
+      const DiscResult sum = sum_of(result_of(rest, i, band), result_of(part, i, band));
+      to.irradiance[i] = sum.irradiance;
+      if (to.standard_error.empty()) continue;
+      to.standard_error[i] = sum.standard_error;
+      to.upper_bound[i] = sum.upper_bound;
+    }
+    rest.hits[i] += part.hits[i];
   }
 }
 
@@ -105,10 +105,9 @@ Outcome estimate_with_variable_radius(const Problem& problem, const Candidate& c
   SomePhotons second;
   SomePhotons others;  // all but the first
   for (std::size_t ray = 0; ray < problem.rays().size(); ++ray) {
-    const std::uint64_t photon = problem.photon(ray);
-    const Part part = part_of(photon);
-    (part == Part::first ? first : others).add(problem.rays()[ray], photon);
-    if (part == Part::second) second.add(problem.rays()[ray], photon);
+    const Part part = part_of(problem.photon(ray));
+    (part == Part::first ? first : others).add(problem, ray);
+    if (part == Part::second) second.add(problem, ray);
   }
   if (first.rays.empty() || second.rays.empty())
     throw std::invalid_argument(

@@ -132,8 +132,9 @@ void StoredRays::read(std::uint64_t first, std::span<Ray> block, const std::stop
   });
 }
 
-void StoredRays::read_numbered(std::uint64_t first, std::span<Ray> block, std::vector<std::uint64_t>& photons,
-                               const std::stop_token& stop) const {
+void StoredRays::read_all(std::uint64_t first, std::span<Ray> block, BesideRays& beside,
+                          const std::stop_token& stop) const {
+  std::vector<std::uint64_t>& photons = beside.photons;
   photons.clear();
   read(first, block, stop);
   if (!numbered() || block.empty()) return;

@@ -26,8 +26,8 @@ class StoredRays final : public RaySource {
   [[nodiscard]] std::uint64_t block_end(std::uint64_t first, std::uint64_t most,
                                         const std::stop_token& stop = {}) const override;
   [[nodiscard]] std::uint64_t first_ray_of(std::uint64_t photon) const override;
-  void read_numbered(std::uint64_t first, std::span<Ray> block, std::vector<std::uint64_t>& photons,
-                     const std::stop_token& stop = {}) const override;
+  void read_all(std::uint64_t first, std::span<Ray> block, BesideRays& beside,
+                const std::stop_token& stop = {}) const override;
   [[nodiscard]] double farthest_from(const glm::dvec3& point) const override;
 
  private:

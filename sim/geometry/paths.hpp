@@ -13,6 +13,20 @@ namespace detp::sim {
 /// Instead of the number of a triangle: the photon met none.
 inline constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>::max();
 
+/// What the rays carry in further bands, beside Ray::power, which is band 0: a row of `bands` powers for each ray. Hits do not depend on
+/// powers, so a search finds the irradiance in all bands.
+struct FurtherPowers {
+  std::span<const double> values = {};
+  std::size_t bands = 0;
+
+  [[nodiscard]] std::span<const double> of(std::size_t ray) const { return values.subspan(ray * bands, bands); }
+  /// Those of the rays from one on.
+  [[nodiscard]] FurtherPowers from(std::size_t ray) const { return {values.subspan(ray * bands), bands}; }
+};
+
+/// A ray has so many powers at most.
+inline constexpr std::size_t most_bands = 64;
+
 /// Rays as pieces of photon paths. What the search for pairs does not need is in arrays of its own, beside the rays.
 struct PathRays {
   std::span<const Ray> rays;
@@ -23,6 +37,7 @@ struct PathRays {
   std::span<const double> landings = {};
   /// Number of the triangle that the photon met there; no_triangle if it met none. Empty: not known.
   std::span<const std::uint32_t> triangles = {};
+  FurtherPowers further = {};
   /// Photons emitted, with those that gave no ray. 0: up to the last ray's photon.
   std::uint64_t photon_count = 0;
   double scale = 1;  ///< of the rays' powers in the irradiance
@@ -43,11 +58,14 @@ struct Paths {
   std::vector<std::uint64_t> photons = {};
   std::vector<double> landings = {};
   std::vector<std::uint32_t> triangles = {};
+  std::vector<double> further = {};  ///< as FurtherPowers::values
+  std::size_t further_bands = 0;
   std::uint64_t photon_count = 0;
   double scale = 1;
 
   operator PathRays() const {
     PathRays all(rays, photons, landings, photon_count, triangles);
+    all.further = {further, further_bands};
     all.scale = scale;
     return all;
   }

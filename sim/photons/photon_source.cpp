@@ -212,13 +212,14 @@ std::uint64_t PhotonSource::first_ray_of(std::uint64_t photon) const {
 }
 
 void PhotonSource::read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const {
-  std::vector<std::uint64_t> photons;
-  read_numbered(first, block, photons, stop);
+  BesideRays beside;
+  read_all(first, block, beside, stop);
 }
 
-void PhotonSource::read_numbered(std::uint64_t first, std::span<Ray> block, std::vector<std::uint64_t>& photons,
-                                 const std::stop_token& stop) const {
+void PhotonSource::read_all(std::uint64_t first, std::span<Ray> block, BesideRays& beside,
+                            const std::stop_token& stop) const {
   const DefaultFloatingPoint mode;
+  std::vector<std::uint64_t>& photons = beside.photons;
   photons.resize(block.size());
   if (block.empty()) return;
   const std::vector<std::uint64_t>& starts = known_->starts;

@@ -42,17 +42,25 @@ void PartResults::add(const PartOfDiscs& part, const Totals& totals, std::span<c
   sums_.begin_run();
   error_sums_.begin_run();
   for (std::size_t i = 0; i < part.discs.size(); ++i) {
-    const std::uint64_t number = part.numbers[i];
-    const Sums one{number, {totals[i].hits, totals.power(i, totals[i]), part.discs[i].radius}};
-    sums_.append(std::span(&one, 1));
-    if (!errors_) continue;
-    const PhotonSums& photons = totals.photon_sums(i);
-    const Errors error{number, {totals.squares(i, photons), photons.largest, photons.photons, totals.unit_exponent()}};
-    error_sums_.append(std::span(&error, 1));
+    for (std::size_t band = 0; band < bands(); ++band) {
+      const Totals& of_band = totals.band(band);
+      const std::uint64_t place = std::uint64_t{part.numbers[i]} * bands() + band;
+      const Sums one{place, {totals[i].hits, of_band.power(i, of_band[i]), part.discs[i].radius}};
+      sums_.append(std::span(&one, 1));
+      if (!errors_) continue;
+      const PhotonSums& photons = of_band.photon_sums(i);
+      const Errors error{place,
+                         {of_band.squares(i, photons), photons.largest, photons.photons, of_band.unit_exponent()}};
+      error_sums_.append(std::span(&error, 1));
+    }
   }
   pairs_.begin_run();
   pairs_.append(pairs);
-  largest_power_ = std::max(largest_power_, heaviest_photon(totals.photon_sums(), totals.largest_power()));
+  for (std::size_t band = 0; band < bands(); ++band) {
+    const Totals& of_band = totals.band(band);
+    largest_powers_[band] =
+        std::max(largest_powers_[band], heaviest_photon(of_band.photon_sums(), of_band.largest_power()));
+  }
 }
 
 void PartResults::send(Ranks& ranks, int to) const {
@@ -67,8 +75,8 @@ void PartResults::receive(Ranks& ranks, int from) {
   receive_runs(pairs_, ranks, from);
 }
 
-void PartResults::finish(double heaviest, std::uint64_t photons, double scale) {
-  heaviest_ = heaviest;
+void PartResults::finish(std::span<const double> heaviest, std::uint64_t photons, double scale) {
+  heaviest_.assign(heaviest.begin(), heaviest.end());
   photons_ = static_cast<double>(photons);
   scale_ = scale;
 }

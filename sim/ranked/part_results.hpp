@@ -19,32 +19,39 @@ struct PartOfDiscs {
 /// What searches for parts of the discs have found. Need not fit in memory (SpillFile).
 class PartResults {
  public:
-  explicit PartResults(bool errors) : errors_(errors) {}
+  PartResults(bool errors, std::size_t bands) : errors_(errors), largest_powers_(bands) {}
 
   /// `totals`: of all rays and the part's discs. `pairs`: sorted, with the discs' numbers among all.
   void add(const PartOfDiscs& part, const Totals& totals, std::span<const Pair> pairs);
-  /// Of all photons that met these discs.
-  [[nodiscard]] double largest_power() const { return largest_power_; }
+  [[nodiscard]] std::size_t bands() const { return largest_powers_.size(); }
+  /// Of all photons that met these discs, by band.
+  [[nodiscard]] std::span<const double> largest_powers() const { return largest_powers_; }
 
   /// To another rank, which receives it.
   void send(Ranks& ranks, int to) const;
   void receive(Ranks& ranks, int from);
 
-  /// When all parts are here: the largest power that one photon brought to a disc, the number of photons, and the scale of powers.
-  void finish(double heaviest, std::uint64_t photons, double scale);
+  /// When all parts are here: the largest power that one photon brought to a disc, by band, the number of photons, and the scale of powers.
+  void finish(std::span<const double> heaviest, std::uint64_t photons, double scale);
 
   [[nodiscard]] bool errors() const { return errors_; }
-  [[nodiscard]] std::uint64_t discs() const { return sums_.size(); }
+  [[nodiscard]] std::uint64_t discs() const { return sums_.size() / bands(); }
   [[nodiscard]] std::uint64_t pairs() const { return pairs_.size(); }
-  /// Calls visit(const DiscResult&) for all discs, in the order of their numbers.
+  /// Calls visit(std::span<const DiscResult> by_band) for all discs, in the order of their numbers.
   template <class Visit>
   void for_each_disc(const Visit& visit) const {
     typename SortedRuns<Sums>::Reader sums(sums_);
     typename SortedRuns<Errors>::Reader errors(error_sums_);
     Sums one;
     Errors error;
-    while (sums.next(one))
-      visit(result_of(one.sums, errors.next(error) ? &error.sums : nullptr, heaviest_, photons_, scale_));
+    std::vector<DiscResult> results;
+    while (sums.next(one)) {
+      const double heaviest = heaviest_.at(results.size());
+      results.push_back(result_of(one.sums, errors.next(error) ? &error.sums : nullptr, heaviest, photons_, scale_));
+      if (results.size() < bands()) continue;
+      visit(std::span<const DiscResult>(results));
+      results.clear();
+    }
   }
   /// Calls visit(Pair) for all pairs, sorted.
   template <class Visit>
@@ -55,23 +62,24 @@ class PartResults {
   }
 
  private:
+  /// Of the disc with the number place / bands in the band place % bands.
   struct Sums {
-    std::uint64_t disc = 0;
+    std::uint64_t place = 0;
     FoundSums sums;
-    bool operator<(const Sums& other) const { return disc < other.disc; }
+    bool operator<(const Sums& other) const { return place < other.place; }
   };
   struct Errors {
-    std::uint64_t disc = 0;
+    std::uint64_t place = 0;
     ErrorSums sums;
-    bool operator<(const Errors& other) const { return disc < other.disc; }
+    bool operator<(const Errors& other) const { return place < other.place; }
   };
 
   bool errors_;
   SortedRuns<Sums> sums_;
   SortedRuns<Errors> error_sums_;
   SortedRuns<Pair> pairs_;
-  double largest_power_ = 0;
-  double heaviest_ = 0;
+  std::vector<double> largest_powers_;
+  std::vector<double> heaviest_;
   double photons_ = 0;
   double scale_ = 1;
 };

@@ -31,7 +31,7 @@ class DiscShare {
         options_(options),
         first_(first),
         count_(count),
-        results_(options.run.standard_error) {}
+        results_(options.run.standard_error, source.bands()) {}
 
   /// Takes its parts of the discs.
   void take(const DiscCut& cut) {
@@ -74,6 +74,7 @@ class DiscShare {
  private:
   void search_part(StreamOptions& options) {
     Totals totals;
+    totals.set_bands(source_.bands());
     if (options.run.standard_error) totals.keep_errors();
     totals.resize(part_->discs.size());
     totals.set_photon_blocks(PhotonBlocks::for_discs(discs_.size()));
@@ -112,14 +113,16 @@ class DiscShare {
 
 /// Moves the results of all discs to the outcome's arrays.
 void fill_in(const PartResults& results, Outcome& outcome) {
-  resize_results(static_cast<std::size_t>(results.discs()), results.errors(), outcome);
+  resize_results(static_cast<std::size_t>(results.discs()), results.errors(), outcome, results.bands());
   std::size_t disc = 0;
-  results.for_each_disc([&](const DiscResult& result) {
-    outcome.hits[disc] = result.hits;
-    outcome.irradiance[disc] = result.irradiance;
-    if (results.errors()) {
-      outcome.standard_error[disc] = result.standard_error;
-      outcome.upper_bound[disc] = result.upper_bound;
+  results.for_each_disc([&](std::span<const DiscResult> by_band) {
+    outcome.hits[disc] = by_band[0].hits;
+    for (std::size_t band = 0; band < by_band.size(); ++band) {
+      BandResults& to = outcome.band(band);
+      to.irradiance[disc] = by_band[band].irradiance;
+      if (!results.errors()) continue;
+      to.standard_error[disc] = by_band[band].standard_error;
+      to.upper_bound[disc] = by_band[band].upper_bound;
     }
     ++disc;
   });
@@ -175,7 +178,8 @@ std::optional<RankedOutcome> search_parts(const DiscSource& discs, const RaySour
   });
   if (!searched) return std::nullopt;
   PartResults& results = share.results();
-  const double heaviest = largest(ranks, results.largest_power());
+  std::vector<double> heaviest;
+  for (const double power : results.largest_powers()) heaviest.push_back(largest(ranks, power));
   RankedOutcome ranked{std::move(share.found())};
   ranked.found.outcome.seconds.order += order_seconds;
   if (ranks.rank() != 0) {

@@ -14,14 +14,25 @@ namespace detp::sim {
 namespace {
 
 void send_totals(Totals& totals, Ranks& ranks) {
-  ranks.send_one(totals.shape(), 0);
-  totals.for_each_array([&](const auto& array) { ranks.send_all(std::span(array.data(), array.size()), 0); });
+  for (std::size_t band = totals.bands(); band-- > 0;) {
+    Totals& one = totals.band(band);
+    ranks.send_one(one.shape(), 0);
+    one.for_each_array([&](const auto& array) { ranks.send_all(std::span(array.data(), array.size()), 0); });
+  }
 }
 
-Totals receive_totals(Ranks& ranks, int from) {
-  Totals totals = Totals::of_shape(ranks.receive_one<Totals::Shape>(from));
-  totals.for_each_array([&](auto& array) { ranks.receive_all(std::span(array.data(), array.size()), from); });
-  return totals;
+/// The last band comes first.
+Totals receive_totals(Ranks& ranks, int from, std::size_t bands) {
+  std::vector<Totals> received;
+  while (true) {
+    Totals one = Totals::of_shape(ranks.receive_one<Totals::Shape>(from));
+    one.for_each_array([&](auto& array) { ranks.receive_all(std::span(array.data(), array.size()), from); });
+    if (received.size() + 1 == bands) {
+      one.set_further(std::move(received));
+      return one;
+    }
+    received.insert(received.begin(), std::move(one));
+  }
 }
 
 /// What was found in one range of rays.
@@ -37,7 +48,7 @@ class OwnRanges {
  public:
   OwnRanges(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
             const StreamOptions& options, const ShareOfRays& whole, PhotonBlocks blocks)
-      : options_(options), blocks_(blocks), discs_(discs.size()) {
+      : options_(options), blocks_(blocks), discs_(discs.size()), bands_(source.bands()) {
     options_.run.standard_error = false;
     with_errors_ = options.run.standard_error;
     options_.first = whole.first;
@@ -75,6 +86,7 @@ class OwnRanges {
   void begin(const ShareOfRays& range) {
     FoundInRange& next = found_.emplace_back();
     next.range = {range.first, range.first, range.block, range.block};
+    next.totals.set_bands(bands_);
     next.totals.set_photon_blocks(blocks_);
     if (with_errors_) next.totals.keep_errors();
     next.totals.resize(discs_);
@@ -103,6 +115,7 @@ class OwnRanges {
   StreamOptions options_;
   PhotonBlocks blocks_;
   std::size_t discs_;
+  std::size_t bands_;
   bool with_errors_ = false;
   std::optional<StreamedSearch> search_;
   std::vector<FoundInRange> found_;
@@ -155,12 +168,12 @@ void send_range(FoundInRange& found, Ranks& ranks) {
   send_totals(found.totals, ranks);
 }
 
-FoundInRange receive_range(Ranks& ranks, int from) {
+FoundInRange receive_range(Ranks& ranks, int from, std::size_t bands) {
   FoundInRange found;
   found.range = ranks.receive_one<ShareOfRays>(from);
   found.part = ranks.receive_one<PartOfOutcome>(from);
   found.pairs = receive_array<Pair>(ranks, from);
-  found.totals = receive_totals(ranks, from);
+  found.totals = receive_totals(ranks, from, bands);
   return found;
 }
 
@@ -232,7 +245,8 @@ RankedOutcome run_on_shared_rays(std::span<const Disc> discs, const RaySource& s
   std::size_t next_own = 1;
   const std::vector<int> order = in_order(parts);
   for (std::size_t i = 1; i < order.size(); ++i)
-    order[i] == 0 ? collected.add(0, found[next_own++]) : collected.add(order[i], receive_range(ranks, order[i]));
+    order[i] == 0 ? collected.add(0, found[next_own++])
+                  : collected.add(order[i], receive_range(ranks, order[i], source.bands()));
   Totals& totals = collected.finish();
   outcome.progress.of = source.size();
   totals.emitted(source.photons_of(outcome.progress.done), source.scale(outcome.progress.done));

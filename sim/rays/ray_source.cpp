@@ -11,6 +11,13 @@ void RaysInMemory::read(std::uint64_t first, std::span<Ray> block, const std::st
   std::ranges::copy(rays_.subspan(first, block.size()), block.begin());
 }
 
+void RaysInMemory::read_all(std::uint64_t first, std::span<Ray> block, BesideRays& beside,
+                            const std::stop_token& stop) const {
+  read(first, block, stop);
+  const auto powers = further_.from(first).values.first(block.size() * further_.bands);
+  beside.further.assign(powers.begin(), powers.end());
+}
+
 double RaysInMemory::farthest_from(const glm::dvec3& point) const {
   const DefaultFloatingPoint mode;
   double farthest = 0;

@@ -7,11 +7,17 @@
 #include <stop_token>
 #include <vector>
 
-#include "detp/sim/geometry/geometry.hpp"
+#include "detp/sim/geometry/paths.hpp"
 #include "line_field.hpp"
 
 /// Sources that return rays by number, so that only one block of rays needs to be in memory at a time.
 namespace detp::sim {
+
+/// What comes with rays: their photons' numbers, and a row of powers in further bands for each (FurtherPowers); empty if there are none.
+struct BesideRays {
+  std::vector<std::uint64_t> photons = {};
+  std::vector<double> further = {};
+};
 
 /// A sequence of rays. Each is a function of its number alone: every read of a ray returns the same bytes, whichever
 /// block it is in.
@@ -46,10 +52,12 @@ class RaySource {
   }
   /// Number of the first ray of this photon or a later one; size() if there is none.
   [[nodiscard]] virtual std::uint64_t first_ray_of(std::uint64_t photon) const { return std::min(size(), photon); }
-  /// Reads rays with their photons' numbers, which `photons` gets if the source has them. Throws as `read`.
-  virtual void read_numbered(std::uint64_t first, std::span<Ray> block, std::vector<std::uint64_t>& photons,
-                             const std::stop_token& stop = {}) const {
-    photons.clear();
+  /// Number of powers of each ray.
+  [[nodiscard]] virtual std::size_t bands() const { return 1; }
+  /// Reads rays with all that comes with them. Throws as `read`.
+  virtual void read_all(std::uint64_t first, std::span<Ray> block, BesideRays& beside,
+                        const std::stop_token& stop = {}) const {
+    beside = {};
     read(first, block, stop);
   }
 
@@ -69,14 +77,19 @@ class RaySource {
 /// Rays in memory. They are not copied, and must outlive the source. read() does not check for a stop request.
 class RaysInMemory final : public RaySource {
  public:
-  explicit RaysInMemory(std::span<const Ray> rays) : rays_(rays) {}
+  explicit RaysInMemory(std::span<const Ray> rays, const FurtherPowers& further = {})
+      : rays_(rays), further_(further) {}
 
   [[nodiscard]] std::uint64_t size() const override { return rays_.size(); }
   void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const override;
+  [[nodiscard]] std::size_t bands() const override { return 1 + further_.bands; }
+  void read_all(std::uint64_t first, std::span<Ray> block, BesideRays& beside,
+                const std::stop_token& stop = {}) const override;
   [[nodiscard]] double farthest_from(const glm::dvec3& point) const override;
 
  private:
   std::span<const Ray> rays_;
+  FurtherPowers further_;
 };
 
 /// The first `count` lines of a field.

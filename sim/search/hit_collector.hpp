@@ -44,10 +44,11 @@ class HitCollector {
         photon_blocks_(sim::photon_blocks(problem, options)),
         last_block_(last_block(problem, options)),
         own_(0, options.memory),
-        blocks_(options.memory) {
+        blocks_(options.memory),
+        units_(problem.bands(), options.memory) {
     if (options.standard_error) own_.keep_errors();
-    totals().expect_powers(problem.largest_power());
-    unit_ = totals().unit();
+    totals().expect_powers(problem);
+    for (std::size_t band = 0; band < problem.bands(); ++band) units_[band] = totals().band(band).unit();
     if (totals().empty()) totals().resize(problem.discs().size());
     if (last_block_ == totals().block()) return;
     totals().make_levels(problem.discs().size(), last_block_);
@@ -60,11 +61,15 @@ class HitCollector {
     const Ray& kept = problem_.rays()[ray];
     Totals& all = totals();
     if (!blocks_.empty()) fold(disc, photon_blocks_.of(problem_.photon(ray, first_photon_)));
-    DiscTotals& sums = all[disc];
-    ++sums.hits;
-    if (all.keeps_errors())
-      all.photon_sums(disc).add(problem_.photon(ray, first_photon_), dominant_axis(kept.direction), kept.power, unit_);
-    sums.power[dominant_axis(kept.direction)] += kept.power;
+    ++all[disc].hits;
+    const int axis = dominant_axis(kept.direction);
+    for (std::size_t band = 0; band < units_.size(); ++band) {
+      Totals& sums = all.band(band);
+      const double power = problem_.power(ray, band);
+      if (sums.keeps_errors())
+        sums.photon_sums(disc).add(problem_.photon(ray, first_photon_), axis, power, units_[band]);
+      sums[disc].power[axis] += power;
+    }
     ++kept_;
     if (options_.pairs) add_pair(outcome_.pairs, {ray, disc});
   }
@@ -83,8 +88,7 @@ class HitCollector {
     end_totals();
     if (outcome_.batches.count == 0 && rays > 0) outcome_.batches.add(rays, static_cast<double>(kept_));
     if (options_.totals == nullptr) finish(own_, problem_.discs(), outcome_);
-    if (outcome_.stopped) outcome_.standard_error.clear();
-    if (outcome_.stopped) outcome_.upper_bound.clear();
+    if (outcome_.stopped) outcome_.clear_errors();
   }
 
   /// Saves the caller's totals. To be called first by a search that may call store_partial_results.
@@ -115,8 +119,10 @@ class HitCollector {
 
   /// Moves a disc's sums on to a later block of photons.
   void fold(std::uint32_t disc, std::uint64_t block) {
-    Totals& all = totals();
-    all.fold(disc, blocks_[disc], block, all[disc], all.keeps_errors() ? &all.photon_sums(disc) : nullptr);
+    for (std::size_t band = 0; band < units_.size(); ++band) {
+      Totals& all = totals().band(band);
+      all.fold(disc, blocks_[disc], block, all[disc], all.keeps_errors() ? &all.photon_sums(disc) : nullptr);
+    }
     blocks_[disc] = block;
   }
 
@@ -125,7 +131,8 @@ class HitCollector {
     Totals& all = totals();
     for (std::uint32_t disc = 0; disc < blocks_.size(); ++disc) fold(disc, last_block_);
     all.begin_block(last_block_);
-    for (std::size_t disc = 0; all.keeps_errors() && disc < all.size(); ++disc) all.photon_sums(disc).close(unit_);
+    for (std::size_t band = 0; all.keeps_errors() && band < units_.size(); ++band)
+      for (std::size_t disc = 0; disc < all.size(); ++disc) all.band(band).photon_sums(disc).close(units_[band]);
     all.add_rays(problem_);
   }
 
@@ -139,7 +146,7 @@ class HitCollector {
   Totals own_;
   std::pmr::vector<std::uint64_t> blocks_;  ///< block under way of each disc; empty if all photons are in one
   std::uint64_t kept_ = 0;
-  double unit_ = 1;  ///< of the totals
+  std::pmr::vector<double> units_;  ///< of the totals, by band
 };
 
 }  // namespace detp::sim

@@ -16,11 +16,15 @@ constexpr double one_sided = 1.6448536269514722;  ///< of a normal distribution,
 
 }  // namespace
 
-void resize_results(std::size_t discs, bool errors, Outcome& outcome) {
+void resize_results(std::size_t discs, bool errors, Outcome& outcome, std::size_t bands) {
   outcome.hits.resize(discs);
-  outcome.irradiance.resize(discs);
-  outcome.standard_error.resize(errors ? discs : 0);
-  outcome.upper_bound.resize(errors ? discs : 0);
+  outcome.further.resize(bands - 1);
+  for (std::size_t band = 0; band < bands; ++band) {
+    BandResults& results = outcome.band(band);
+    results.irradiance.resize(discs);
+    results.standard_error.resize(errors ? discs : 0);
+    results.upper_bound.resize(errors ? discs : 0);
+  }
 }
 
 double heaviest_of_bound(double above, double squares) {
@@ -58,19 +62,27 @@ DiscResult result_of(const FoundSums& found, const ErrorSums* errors, double hea
   return result;
 }
 
+DiscResult result_of(const Outcome& outcome, std::size_t disc, std::size_t band) {
+  const BandResults& results = outcome.band(band);
+  DiscResult result{.hits = outcome.hits[disc], .irradiance = results.irradiance[disc]};
+  if (results.standard_error.empty()) return result;
+  result.standard_error = results.standard_error[disc];
+  result.upper_bound = results.upper_bound[disc];
+  return result;
+}
+
 void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, const DiscTotals& sums,
-                 const PhotonSums* photons, double heaviest, Outcome& outcome) {
+                 const PhotonSums* photons, double heaviest, BandResults& results) {
   const FoundSums found{sums.hits, totals.power(number, sums), disc.radius};
   ErrorSums errors;
   if (photons != nullptr)
     errors = {totals.squares(number, *photons), photons->largest, photons->photons, totals.unit_exponent()};
   const DiscResult result = result_of(found, photons != nullptr ? &errors : nullptr, heaviest,
                                       static_cast<double>(totals.photons()), totals.scale());
-  outcome.hits[number] = result.hits;
-  outcome.irradiance[number] = result.irradiance;
+  results.irradiance[number] = result.irradiance;
   if (photons == nullptr) return;
-  outcome.standard_error[number] = result.standard_error;
-  outcome.upper_bound[number] = result.upper_bound;
+  results.standard_error[number] = result.standard_error;
+  results.upper_bound[number] = result.upper_bound;
 }
 
 double heaviest_photon(std::span<const PhotonSums> discs, double largest_power) {
@@ -79,11 +91,15 @@ double heaviest_photon(std::span<const PhotonSums> discs, double largest_power) 
 }
 
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome) {
-  resize_results(discs.size(), totals.keeps_errors(), outcome);
-  const double heaviest = heaviest_photon(totals.photon_sums(), totals.largest_power());
-  for (std::size_t disc = 0; disc < discs.size(); ++disc)
-    finish_disc(totals, discs[disc], disc, totals[disc], totals.keeps_errors() ? &totals.photon_sums(disc) : nullptr,
-                heaviest, outcome);
+  resize_results(discs.size(), totals.keeps_errors(), outcome, totals.bands());
+  for (std::size_t disc = 0; disc < discs.size(); ++disc) outcome.hits[disc] = totals[disc].hits;
+  for (std::size_t band = 0; band < totals.bands(); ++band) {
+    const Totals& sums = totals.band(band);
+    const double heaviest = heaviest_photon(sums.photon_sums(), sums.largest_power());
+    for (std::size_t disc = 0; disc < discs.size(); ++disc)
+      finish_disc(sums, discs[disc], disc, sums[disc], sums.keeps_errors() ? &sums.photon_sums(disc) : nullptr,
+                  heaviest, outcome.band(band));
+  }
 }
 
 }  // namespace detp::sim

@@ -41,10 +41,10 @@ constexpr double error_bytes = sizeof(PhotonSums) + 2 * sizeof(double);
 /// caustic, where those with w of all discs hold in 99 % and are 1.5 times as large in the median.
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome);
 
-/// The same for one disc, `sums` and `photons` being those of the block of photons under way. The outcome's arrays must have
+/// The same for one disc and band, `sums` and `photons` being those of the block of photons under way. The arrays must have
 /// their size. `photons` may be null: then there is no standard error. `heaviest` is w.
 void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, const DiscTotals& sums,
-                 const PhotonSums* photons, double heaviest, Outcome& outcome);
+                 const PhotonSums* photons, double heaviest, BandResults& results);
 
 /// What was found of one disc.
 struct FoundSums {
@@ -67,6 +67,9 @@ struct DiscResult {
   double standard_error = unbounded;  ///< infinite: not known
   double upper_bound = unbounded;
 };
+
+/// Of a disc in an outcome.
+[[nodiscard]] DiscResult result_of(const Outcome& outcome, std::size_t disc, std::size_t band = 0);
 
 /// Whether the standard error, if it is known at all, is weak (finish): the bound says so.
 [[nodiscard]] inline bool is_weak(const DiscResult& result) {
@@ -94,6 +97,6 @@ struct PowerError {
 [[nodiscard]] double heaviest_photon(std::span<const PhotonSums> discs, double largest_power);
 
 /// Gives the outcome's arrays their size.
-void resize_results(std::size_t discs, bool errors, Outcome& outcome);
+void resize_results(std::size_t discs, bool errors, Outcome& outcome, std::size_t bands = 1);
 
 }  // namespace detp::sim

@@ -8,7 +8,7 @@ namespace detp::sim {
 
 void clear(Outcome& outcome) {
   Outcome empty;
-  const auto keep = [&](auto Outcome::*array) {
+  const auto keep = [&](auto array) {
     (outcome.*array).clear();
     empty.*array = std::move(outcome.*array);
   };
@@ -38,13 +38,13 @@ void add_block(const Outcome& part, Outcome& sum) {
 }
 
 void keep_done_discs(Outcome& outcome) {
-  outcome.standard_error.clear();
-  outcome.upper_bound.clear();
+  outcome.clear_errors();
   outcome.progress = {0, outcome.done_discs.size(), "discs"};
   outcome.total_hits = 0;
   for (std::size_t disc = 0; disc < outcome.done_discs.size(); ++disc) {
     if (!outcome.done_discs[disc]) outcome.hits[disc] = 0;
-    if (!outcome.done_discs[disc]) outcome.irradiance[disc] = 0;
+    for (std::size_t band = 0; band < outcome.bands(); ++band)
+      if (!outcome.done_discs[disc]) outcome.band(band).irradiance[disc] = 0;
     outcome.progress.done += outcome.done_discs[disc] ? 1 : 0;
     outcome.total_hits += outcome.hits[disc];
   }

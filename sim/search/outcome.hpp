@@ -111,9 +111,8 @@ struct SphereCounts {
   std::uint64_t listed = 0;    ///< rays listed in all builds
 };
 
-/// The results of a technique, per disc in the order of the problem's discs.
-struct Outcome {
-  std::vector<std::uint64_t> hits;  ///< rays that cross the disc
+/// What a technique finds in one band of powers, per disc in the order of the problem's discs.
+struct BandResults {
   /// Power of the rays that cross the disc, divided by the disc's area π d². Powers are added in the order of Totals, so
   /// all exact techniques give the same bits.
   std::vector<double> irradiance;
@@ -121,6 +120,14 @@ struct Outcome {
   /// disc; weak (is_weak) if a few bring most of it. Empty if not requested, or if the run was stopped and its rays are no stream.
   std::vector<double> standard_error;
   std::vector<double> upper_bound;  ///< one-sided bound of the irradiance, 95 %; empty like standard_error
+  /// of streams: sum over all discs of what the first rays bring to their irradiance, batch by batch, without the scale of the source
+  Batches irradiance_batches;
+};
+
+/// The results of a technique. Those of band 0 are its own.
+struct Outcome : BandResults {
+  std::vector<std::uint64_t> hits;   ///< rays that cross the disc
+  std::vector<BandResults> further;  ///< bands 1, 2, …
   std::uint64_t total_hits = 0;
   Counts<std::uint64_t> counts;       ///< all zero unless requested (`hits` always holds total_hits)
   Vectors vectors;                    ///< of the simd engine
@@ -137,8 +144,17 @@ struct Outcome {
   Progress progress;
   std::vector<bool> done_discs;  ///< empty unless the progress is in discs
   Batches batches;               ///< hits of the finished rays, batch by batch; empty if the progress is in discs
-  /// of streams: sum over all discs of what the first rays bring to their irradiance, batch by batch, without the scale of the source
-  Batches irradiance_batches;
+
+  [[nodiscard]] std::size_t bands() const { return 1 + further.size(); }
+  [[nodiscard]] BandResults& band(std::size_t band) { return band == 0 ? *this : further[band - 1]; }
+  [[nodiscard]] const BandResults& band(std::size_t band) const { return band == 0 ? *this : further[band - 1]; }
+  /// There are no errors of a part.
+  void clear_errors() {
+    for (std::size_t i = 0; i < bands(); ++i) {
+      band(i).standard_error.clear();
+      band(i).upper_bound.clear();
+    }
+  }
 };
 
 /// Empties an outcome, and keeps the memory of its arrays.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
@@ -76,9 +77,11 @@ double Problem::store_rays(const PathRays& paths, int threads, std::uint64_t fir
              [&] { checked = check_rays(rays, enclosing_.centre, most_power_, first, StopCheck(stop, checking)); });
   StopCheck check(stop, checking);
   check_paths(paths, first, check);
+  PowerRange further = check_further(paths, most_power_, first, check);
   paths_ = paths;
-  one_power_ = checked.one_power;
+  one_power_ = checked.one_power && further.all_equal;
   largest_power_ = checked.largest_power;
+  largest_further_ = std::move(further.largest);
   segments_ = checked.segments;
   own_rays_ = std::move(checked.unit);
   rays_ = own_rays_ ? std::span<const Ray>(*own_rays_) : rays;

@@ -49,9 +49,16 @@ class Problem {
   [[nodiscard]] std::span<const std::uint32_t> triangles() const { return paths_.triangles; }
   /// The rays as they were given, with unit directions.
   [[nodiscard]] PathRays paths() const {
-    PathRays all(rays_, paths_.photons, paths_.landings, paths_.photon_count, paths_.triangles);
-    all.scale = paths_.scale;
+    PathRays all = paths_;
+    all.rays = rays_;
     return all;
+  }
+  /// Number of powers that each ray carries.
+  [[nodiscard]] std::size_t bands() const { return 1 + paths_.further.bands; }
+  /// The powers of bands 1, 2, …
+  [[nodiscard]] const FurtherPowers& further() const { return paths_.further; }
+  [[nodiscard]] double power(std::size_t ray, std::size_t band) const {
+    return band == 0 ? rays_[ray].power : paths_.further.of(ray)[band - 1];
   }
   [[nodiscard]] std::span<const Disc> discs() const { return discs_; }
   /// S₀: contains every disc completely; rays may start or pass outside it.
@@ -67,9 +74,11 @@ class Problem {
   [[nodiscard]] double farthest() const { return farthest_; }
   /// Upper bound on a ray's power, so that no sum and no irradiance overflows.
   [[nodiscard]] double most_power() const { return most_power_; }
-  /// Largest power of a ray.
-  [[nodiscard]] double largest_power() const { return largest_power_; }
-  /// All rays carry the same power.
+  /// Largest power of a ray in a band.
+  [[nodiscard]] double largest_power(std::size_t band = 0) const {
+    return band == 0 ? largest_power_ : largest_further_[band - 1];
+  }
+  /// All rays carry the same powers.
   [[nodiscard]] bool one_power() const { return one_power_; }
   /// At least one ray is a segment.
   [[nodiscard]] bool segments() const { return segments_; }
@@ -100,6 +109,7 @@ class Problem {
   double farthest_ = 0;
   double most_power_ = 0;
   double largest_power_ = 0;
+  std::vector<double> largest_further_;  ///< powers of bands 1, 2, …
   bool one_power_ = false;
   bool segments_ = false;
   double kept_bytes_ = 0;
@@ -125,7 +135,7 @@ class Problem {
 /// non-zero (got 0 0 0)". Malformed are: a number that is not finite (except a length of +infinity: the whole line), a
 /// coordinate or radius above 1e100, a radius below 1e-100, a direction or normal of length 0, a length <= 0, a power
 /// < 0 or above most_power (9.6e288 for radii of at least 1; larger powers could overflow), a photon number below the
-/// one before it, a landing < 0, and arrays of other lengths than that of the rays. Throws std::length_error
+/// one before it, a landing < 0, arrays of other lengths than that of the rays, and more than 64 bands. Throws std::length_error
 /// for more than 2³² - 2 rays or discs, and Stopped on a stop request.
 ///
 /// The slack is 16e-12 E + ∛(2d κ²) + 1e-15 M. In spite of rounding, a ray that counts as a hit comes nearer to the

@@ -45,7 +45,10 @@ double sums_bytes(const Problem& problem, const RunOptions& options) {
   const bool errors = own ? options.standard_error : options.totals->keeps_errors();
   const std::uint64_t last = last_block(problem, options);
   const double levels = static_cast<double>(std::bit_width(last)) * sizeof(double) * (errors ? 2.0 : 1.0) * discs;
-  return levels + (errors ? (own ? error_bytes : sizeof(PhotonSums)) * discs : 0);
+  const double of_errors = (errors ? (own ? error_bytes : sizeof(PhotonSums)) * discs : 0);
+  const auto bands = static_cast<double>(problem.bands());
+  const double further = (bands - 1) * (sizeof(DiscTotals) + (own ? sizeof(double) : 0)) * discs;
+  return bands * (levels + of_errors) + further;
 }
 
 double found_bytes(const Problem& problem, const RunOptions& options) {

@@ -185,4 +185,27 @@ void check_paths(const PathRays& paths, std::uint64_t first, StopCheck& check) {
   });
 }
 
+PowerRange check_further(const PathRays& paths, double most_power, std::uint64_t first, StopCheck& check) {
+  const FurtherPowers& all = paths.further;
+  if (all.bands >= most_bands)
+    throw std::invalid_argument(fmt::format("{} bands are too many; the maximum is {}", all.bands + 1, most_bands));
+  if (all.values.size() != all.bands * paths.rays.size())
+    throw std::invalid_argument(fmt::format("there are {} powers of {} further bands for {} rays", all.values.size(),
+                                            all.bands, paths.rays.size()));
+  PowerRange range{std::vector<double>(all.bands), true};
+  if (all.bands == 0) return range;
+  const std::span<const double> of_first = all.of(0);
+  for_each_checked(0, paths.rays.size(), check, [&](std::size_t ray) {
+    const std::span<const double> powers = all.of(ray);
+    for (std::size_t band = 0; band < all.bands; ++band) {
+      if (!(powers[band] >= 0 && powers[band] <= most_power))
+        throw std::invalid_argument(fmt::format("ray {}: power of band {} must be 0 to {:.3g} (got {})", first + ray,
+                                                band + 1, most_power, powers[band]));
+      range.largest[band] = std::max(range.largest[band], powers[band]);
+      range.all_equal = range.all_equal && powers[band] == of_first[band];
+    }
+  });
+  return range;
+}
+
 }  // namespace detp::sim

@@ -89,4 +89,14 @@ void require_rising(std::uint64_t ray, std::uint64_t photon, std::uint64_t befor
 /// < 0 or NaN, and for arrays of other lengths than that of the rays.
 void check_paths(const PathRays& paths, std::uint64_t first, StopCheck& check);
 
+/// Of the rays' powers in further bands.
+struct PowerRange {
+  std::vector<double> largest;  ///< of each band
+  bool all_equal = true;        ///< all rays carry the same powers
+};
+
+/// Throws std::invalid_argument for powers that are negative, above most_power or not finite, with the numbers of ray and band; for another number
+/// of powers than the rays need, and for too many bands.
+[[nodiscard]] PowerRange check_further(const PathRays& paths, double most_power, std::uint64_t first, StopCheck& check);
+
 }  // namespace detp::sim

@@ -1,5 +1,6 @@
 #include "totals.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
@@ -33,7 +34,9 @@ Totals::Totals(const Totals& other, Memory* memory)
       rays_(other.rays_),
       photons_(other.photons_),
       largest_power_(other.largest_power_),
+      scale_(other.scale_),
       unit_exponent_(other.unit_exponent_) {
+  for (const Totals& further : other.further_) further_.emplace_back(further, memory);
   const auto copy = [&](const std::pmr::vector<Level>& from, std::pmr::vector<Level>& to) {
     for (const Level& level : from)
       to.push_back({std::pmr::vector<double>(level.power, memory), std::pmr::vector<double>(level.squares, memory)});
@@ -45,14 +48,30 @@ Totals::Totals(const Totals& other, Memory* memory)
 void Totals::resize(std::size_t discs) {
   discs_.resize(discs);
   if (keeps_errors_) photon_sums_.resize(discs);
+  for (Totals& further : further_) further.resize(discs);
 }
 
 void Totals::keep_errors() {
   keeps_errors_ = true;
   photon_sums_.resize(discs_.size());
+  for (Totals& further : further_) further.keep_errors();
 }
 
-void Totals::expect_powers(double largest_power) {
+void Totals::set_bands(std::size_t bands) {
+  if (bands == this->bands()) return;
+  further_.clear();
+  const Totals none(*this, levels_.get_allocator().resource());
+  while (this->bands() < bands) further_.emplace_back(none, levels_.get_allocator().resource());
+}
+
+void Totals::expect_powers(const Problem& problem) {
+  if (photons_ == 0) set_bands(problem.bands());
+  if (bands() != problem.bands())
+    throw std::invalid_argument(fmt::format("rays have {} bands, but earlier ones {}", problem.bands(), bands()));
+  for (std::size_t band = 0; band < bands(); ++band) this->band(band).expect_power(problem.largest_power(band));
+}
+
+void Totals::expect_power(double largest_power) {
   const int exponent = sim::unit_exponent(std::max(largest_power, largest_power_));
   const int change = 2 * (exponent - std::exchange(unit_exponent_, exponent));
   if (change == 0) return;
@@ -75,6 +94,7 @@ void Totals::make_levels(std::size_t discs, std::uint64_t last_block) {
     if (level == left_.size()) add(left_, used ? discs : 0);
     if (used) start += std::uint64_t{1} << level;
   }
+  for (Totals& further : further_) further.make_levels(discs, last_block);
 }
 
 /// Adds T(level, i), which begins at block `number`, to the counter.
@@ -127,10 +147,12 @@ void Totals::prefetch(std::size_t disc, std::uint64_t from) const {
 void Totals::begin_at(std::uint64_t block) {
   origin_ = block_ = block;
   rays_ = photon_blocks().first(block);  // if rays are photons
+  for (Totals& further : further_) further.begin_at(block);
 }
 
 void Totals::complete(std::uint64_t block) {
   make_levels(discs_.size(), block);
+  for (Totals& further : further_) further.complete(block);
   for (std::size_t disc = 0; disc < discs_.size(); ++disc)
     fold(disc, block_, block, discs_[disc], keeps_errors_ ? &photon_sums_[disc] : nullptr);
   begin_block(std::max(block, block_));
@@ -170,11 +192,16 @@ Totals Totals::of_shape(const Shape& shape) {
 }
 
 void Totals::append(const Totals& later) {
+  if (later.bands() != bands()) throw std::invalid_argument("sums of photons have other numbers of bands");
+  for (std::size_t band = 0; band < bands(); ++band) this->band(band).append_band(later.band(band));
+}
+
+void Totals::append_band(const Totals& later) {
   if (later.origin_ != block_ || later.discs_.size() != discs_.size() || later.keeps_errors_ != keeps_errors_ ||
       later.photon_blocks() != photon_blocks())
     throw std::invalid_argument("sums of photons do not follow one another");
   make_levels(discs_.size(), later.block_);
-  expect_powers(later.largest_power_);
+  expect_power(later.largest_power_);
   const int change = 2 * (unit_exponent_ - later.unit_exponent_);
   for (const Subtree& subtree : later.subtrees()) {
     const Level& from = (subtree.left ? later.left_ : later.levels_)[subtree.level];
@@ -212,8 +239,14 @@ double Totals::squares(std::size_t disc, const PhotonSums& sums) const {
 void Totals::add_rays(const Problem& problem) {
   rays_ += problem.rays().size();
   photons_ = std::max(photons_, problem.numbered() ? problem.photons_to() : rays_);
-  largest_power_ = std::max(largest_power_, problem.largest_power());
   scale_ = problem.scale();
+  for (std::size_t band = 0; band < bands(); ++band) {
+    Totals& sums = this->band(band);
+    sums.rays_ = rays_;
+    sums.photons_ = photons_;
+    sums.scale_ = scale_;
+    sums.largest_power_ = std::max(sums.largest_power_, problem.largest_power(band));
+  }
 }
 
 }  // namespace detp::sim

@@ -31,6 +31,8 @@ struct DiscTotals {
 ///
 /// A complete block goes into `levels`, which work like the digits of a binary counter: level l holds the latest T(l, ·)
 /// that is not part of a larger subtree yet. There are none as long as all photons are in the first block.
+///
+/// If rays carry powers in several bands, each further band has totals of its own. Numbers of hits are those of band 0.
 class Totals {
  public:
   using Memory = std::pmr::memory_resource;
@@ -44,7 +46,10 @@ class Totals {
   /// Those for the number of discs, unless others were set.
   [[nodiscard]] PhotonBlocks photon_blocks() const { return blocks_.value_or(PhotonBlocks::for_discs(size())); }
   /// To be called before the first ray, if the discs are a part of all.
-  void set_photon_blocks(PhotonBlocks blocks) { blocks_ = blocks; }
+  void set_photon_blocks(PhotonBlocks blocks) {
+    blocks_ = blocks;
+    for (Totals& further : further_) further.set_photon_blocks(blocks);
+  }
 
   DiscTotals& operator[](std::size_t disc) { return discs_[disc]; }
   const DiscTotals& operator[](std::size_t disc) const { return discs_[disc]; }
@@ -55,8 +60,15 @@ class Totals {
   PhotonSums& photon_sums(std::size_t disc) { return photon_sums_[disc]; }
   const PhotonSums& photon_sums(std::size_t disc) const { return photon_sums_[disc]; }
   [[nodiscard]] std::span<const PhotonSums> photon_sums() const { return photon_sums_; }
-  /// To be called before each search, with the largest power of its rays: changes the unit of the squares if necessary.
-  void expect_powers(double largest_power);
+  /// To be called before the first search. Without this call, its rays decide.
+  void set_bands(std::size_t bands);
+  /// To be called before each search: changes the unit of the squares if its rays' powers need that. Throws std::invalid_argument if the rays do not
+  /// have as many bands as earlier ones.
+  void expect_powers(const Problem& problem);
+  [[nodiscard]] std::size_t bands() const { return 1 + further_.size(); }
+  /// Those of a band; band 0 is this.
+  [[nodiscard]] Totals& band(std::size_t band) { return band == 0 ? *this : further_[band - 1]; }
+  [[nodiscard]] const Totals& band(std::size_t band) const { return band == 0 ? *this : further_[band - 1]; }
   /// u, of PhotonSums::squares and `squares`.
   [[nodiscard]] double unit() const { return std::ldexp(1.0, unit_exponent_); }
   [[nodiscard]] int unit_exponent() const { return unit_exponent_; }
@@ -71,7 +83,10 @@ class Totals {
   /// Asks for what `fold` of the disc will use.
   void prefetch(std::size_t disc, std::uint64_t from) const;
   /// All discs have been folded up to this block.
-  void begin_block(std::uint64_t block) { block_ = block; }
+  void begin_block(std::uint64_t block) {
+    block_ = block;
+    for (Totals& further : further_) further.begin_block(block);
+  }
 
   /// Sums of blocks from this one on, a part of all: blocks before it are summed elsewhere. To be called before the first ray, when the
   /// number of discs is known.
@@ -84,7 +99,7 @@ class Totals {
   /// Throws std::invalid_argument for parts that do not follow one another.
   void append(const Totals& later);
 
-  /// What a part has, to be sent elsewhere.
+  /// What a part has, to be sent elsewhere, band by band.
   struct Shape {
     std::uint64_t discs = 0, origin = 0, block = 0, rays = 0, photons = 0, errors = 0;
     double largest_power = 0;
@@ -94,7 +109,9 @@ class Totals {
   [[nodiscard]] Shape shape() const;
   /// With arrays of the right sizes, to be filled by for_each_array.
   [[nodiscard]] static Totals of_shape(const Shape& shape);
-  /// Calls visit(array) for all arrays that a part has, always in the same order.
+  /// Of the bands behind this one.
+  void set_further(std::vector<Totals> further) { further_ = std::move(further); }
+  /// Calls visit(array) for all arrays that a band of a part has, always in the same order.
   template <class Visit>
   void for_each_array(const Visit& visit) {
     visit(discs_);
@@ -116,6 +133,7 @@ class Totals {
   void emitted(std::uint64_t photons, double scale = 1) {
     photons_ = std::max(photons_, photons);
     scale_ = scale;
+    for (Totals& further : further_) further.emitted(photons, scale);
   }
   [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
@@ -125,6 +143,9 @@ class Totals {
   void set_largest_power(double power) { largest_power_ = power; }
 
  private:
+  /// The same for one band.
+  void expect_power(double largest_power);
+  void append_band(const Totals& later);
   /// T(l, ·) of each disc.
   struct Level {
     std::pmr::vector<double> power;
@@ -152,6 +173,7 @@ class Totals {
   std::pmr::vector<Level> levels_;
   std::pmr::vector<Level> left_;  ///< subtrees whose left neighbour begins before origin_, by level
   bool keeps_errors_ = false;
+  std::vector<Totals> further_;  ///< bands 1, 2, …
   std::optional<PhotonBlocks> blocks_;
   std::uint64_t origin_ = 0;
   std::uint64_t block_ = 0;

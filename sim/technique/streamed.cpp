@@ -87,7 +87,7 @@ void StreamedSearch::search(std::uint64_t first, std::uint64_t last, Totals* tot
   std::vector<Ray> block;
   block.reserve(std::min<std::uint64_t>(streamed_.block,
                                         end() - first));  // in one piece: smaller ones would stay with the allocator
-  std::vector<std::uint64_t> photons;                     // their numbers; empty if rays have none
+  BesideRays beside;
   try {
     while (search.next() < end() && !search.stopped()) {
       const std::uint64_t next = search.next();
@@ -98,11 +98,13 @@ void StreamedSearch::search(std::uint64_t first, std::uint64_t last, Totals* tot
       on_threads(thread_count(run_.threads), [&] {
         const std::uint64_t to = source_.block_end(next, piece, run_.stop);
         block.resize(static_cast<std::size_t>(std::min(last, to) - next));
-        source_.read_numbered(next, block, photons, run_.stop);
+        source_.read_all(next, block, beside, run_.stop);
       });
       streamed_.read_seconds += watch.lap();
       scratch_.begin();
-      search.add({block, photons, {}});
+      PathRays rays(block, beside.photons, {});
+      rays.further = {beside.further, source_.bands() - 1};
+      search.add(rays);
       if (run_.stop.stop_possible()) search.add_batch();
       piece = std::min(2 * piece, streamed_.block);
     }

@@ -76,14 +76,18 @@ void SuccessiveSearch::add_batch() {
       static_cast<double>(rays) < least_growth * static_cast<double>(done))
     return;
   constexpr std::size_t at_once = std::size_t{1} << 14;
-  std::vector<double> parts((discs.size() + at_once - 1) / at_once);
-  sim::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
-    for (std::size_t i = part * at_once; i < std::min(discs.size(), (part + 1) * at_once); ++i)
-      parts[part] += own_.power(i, own_[i]) / (discs[i].radius * discs[i].radius);
-  });
-  const double irradiance = std::accumulate(parts.begin(), parts.end(), 0.0) / std::numbers::pi;
-  sum_.irradiance_batches.add(rays, irradiance - irradiance_);
-  irradiance_ = irradiance;
+  irradiance_.resize(own_.bands());
+  sum_.further.resize(own_.bands() - 1);
+  for (std::size_t band = 0; band < own_.bands(); ++band) {
+    const Totals& own = own_.band(band);
+    std::vector<double> parts((discs.size() + at_once - 1) / at_once);
+    sim::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
+      for (std::size_t i = part * at_once; i < std::min(discs.size(), (part + 1) * at_once); ++i)
+        parts[part] += own.power(i, own[i]) / (discs[i].radius * discs[i].radius);
+    });
+    const double irradiance = std::accumulate(parts.begin(), parts.end(), 0.0) / std::numbers::pi;
+    sum_.band(band).irradiance_batches.add(rays, irradiance - std::exchange(irradiance_[band], irradiance));
+  }
 }
 
 void SuccessiveSearch::add_pairs() {

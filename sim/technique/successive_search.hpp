@@ -55,7 +55,7 @@ class SuccessiveSearch {
   Outcome part_;
   Outcome& sum_;
   std::uint64_t last_photon_ = 0;
-  double irradiance_ = 0;  ///< sum over all discs, of finished batches
+  std::vector<double> irradiance_;  ///< sum over all discs, of finished batches, by band
 };
 
 }  // namespace detp::sim

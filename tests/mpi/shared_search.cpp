@@ -36,7 +36,8 @@ void search_stored(const std::vector<Disc>& discs, const RaySource& source, Rank
   if (ranks.rank() != 0) return;
   std::vector<double> irradiance;
   std::vector<std::uint64_t> pairs;
-  found.results->for_each_disc([&](const DiscResult& result) { irradiance.push_back(result.irradiance); });
+  found.results->for_each_disc(
+      [&](std::span<const DiscResult> found_in) { irradiance.push_back(found_in[0].irradiance); });
   found.results->for_each_pair([&](const Pair& pair) { pairs.push_back(std::uint64_t{pair.ray} << 32 | pair.disc); });
   std::printf("stored discs: irradiance %016llx, pairs %016llx\n", static_cast<unsigned long long>(digest(irradiance)),
               static_cast<unsigned long long>(digest(pairs)));

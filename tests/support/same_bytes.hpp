@@ -30,14 +30,19 @@ inline sim::Outcome truth_of(const sim::Problem& problem) {
 inline void check_same(const sim::Outcome& found, const sim::Outcome& expected, const sim::RunOptions& options) {
   CHECK(found.total_hits == expected.total_hits);
   CHECK(found.hits == expected.hits);
-  CHECK(found.irradiance == expected.irradiance);
+  REQUIRE(found.bands() == expected.bands());
+  for (std::size_t band = 0; band < found.bands(); ++band) {
+    CAPTURE(band);
+    const sim::BandResults& one = found.band(band);
+    CHECK(one.irradiance == expected.band(band).irradiance);
+    if (!options.standard_error) continue;
+    CHECK(one.standard_error == expected.band(band).standard_error);
+    CHECK(one.upper_bound == expected.band(band).upper_bound);
+  }
   if (options.pairs)
     CHECK(found.pairs == expected.pairs);
   else
     CHECK(found.pairs.empty());
-  if (!options.standard_error) return;
-  CHECK(found.standard_error == expected.standard_error);
-  CHECK(found.upper_bound == expected.upper_bound);
 }
 
 /// The ways to search that are compared: all combinations.

@@ -43,12 +43,14 @@ void add_discs(detp_run& run, const validate::Job& job) {
 
 void add_results(detp_run& run, const validate::JobRun& found) {
   const bool errors = found.results ? found.results->errors() : !found.outcome.standard_error.empty();
-  validate::for_each_disc(found, [&](const sim::DiscResult& one) {
-    run.hits.push_back(one.hits);
-    run.irradiance.push_back(one.irradiance);
-    if (!errors) return;
-    run.standard_error.push_back(one.standard_error);
-    run.upper_bound.push_back(one.upper_bound);
+  validate::for_each_disc(found, [&](std::span<const sim::DiscResult> by_band) {
+    run.hits.push_back(by_band.front().hits);
+    for (const sim::DiscResult& one : by_band) {
+      run.irradiance.push_back(one.irradiance);
+      if (!errors) continue;
+      run.standard_error.push_back(one.standard_error);
+      run.upper_bound.push_back(one.upper_bound);
+    }
   });
 }
 

@@ -116,6 +116,8 @@ struct Job {
   std::vector<std::uint64_t> photons;   ///< numbers of the rays' photons, as in sim::PathRays
   std::vector<double> landings;         ///< where the photons met a surface, as in sim::PathRays
   std::vector<std::uint32_t> triangles_met = {};     ///< as sim::PathRays::triangles
+  std::vector<double> further = {};                  ///< powers in bands 1, 2, …, as in sim::FurtherPowers
+  std::vector<std::string> bands = {};               ///< names of all bands; empty: one power without a name
   std::uint64_t photon_count = 0;                    ///< photons emitted; 0: one for each ray
   double power_scale = 1;                            ///< PathRays::scale of the rays
   std::vector<std::uint32_t> file_order;             ///< as sim::RayFile::order
@@ -179,6 +181,7 @@ struct Job {
   }
   [[nodiscard]] sim::PathRays paths() const {
     sim::PathRays all(rays, photons, landings, photon_count, triangles_met);
+    all.further = {further, bands.empty() ? 0 : bands.size() - 1};
     all.scale = power_scale;
     return all;
   }

@@ -45,16 +45,16 @@ struct JobRun {
 [[nodiscard]] inline std::uint64_t disc_count(const JobRun& run) {
   return run.results ? run.results->discs() : run.outcome.hits.size();
 }
-/// Calls visit(const sim::DiscResult&) for all discs, in their order.
+/// Calls visit(std::span<const sim::DiscResult> by_band) for all discs, in their order.
 template <class Visit>
 void for_each_disc(const JobRun& run, const Visit& visit) {
   if (run.results) return run.results->for_each_disc(visit);
   const sim::Outcome& found = run.outcome;
-  const bool errors = !found.standard_error.empty();
-  for (std::size_t disc = 0; disc < found.hits.size(); ++disc)
-    visit(sim::DiscResult{found.hits[disc], found.irradiance[disc],
-                          errors ? found.standard_error[disc] : sim::unbounded,
-                          errors ? found.upper_bound[disc] : sim::unbounded});
+  std::vector<sim::DiscResult> by_band(found.bands());
+  for (std::size_t disc = 0; disc < found.hits.size(); ++disc) {
+    for (std::size_t band = 0; band < by_band.size(); ++band) by_band[band] = sim::result_of(found, disc, band);
+    visit(std::span<const sim::DiscResult>(by_band));
+  }
 }
 
 /// The processes that search together.

@@ -159,11 +159,11 @@ struct WrittenRun {
 /// The estimated hits of all rays of a stopped run; nothing if no ray is finished, or if the finished rays do not represent all.
 [[nodiscard]] std::optional<sim::SumEstimate> estimated_hits(const RunAnswer& answer);
 
-/// What the first rays say of the mean irradiance by all; nothing if they do not represent all rays.
-[[nodiscard]] std::optional<sim::SumEstimate> estimated_irradiance(const Job& job, const RunAnswer& answer);
+/// What the first rays say of the mean irradiance by all, in each band; empty if they do not represent all rays.
+[[nodiscard]] std::vector<sim::SumEstimate> estimated_irradiance(const Job& job, const RunAnswer& answer);
 
-/// Mean over the discs.
-[[nodiscard]] double mean_irradiance(const JobRun& run);
+/// Mean over the discs, of each band.
+[[nodiscard]] std::vector<double> mean_irradiance(const JobRun& run);
 
 /// The counts, with the memory that belongs to them.
 [[nodiscard]] Counts<std::uint64_t> counted(const RunAnswer& answer);

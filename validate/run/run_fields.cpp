@@ -12,10 +12,14 @@
 
 namespace detp::validate {
 
-double mean_irradiance(const JobRun& run) {
-  double sum = 0;
-  for_each_disc(run, [&](const sim::DiscResult& result) { sum += result.irradiance; });
-  return sum / static_cast<double>(disc_count(run));
+std::vector<double> mean_irradiance(const JobRun& run) {
+  std::vector<double> means;
+  for_each_disc(run, [&](std::span<const sim::DiscResult> by_band) {
+    means.resize(by_band.size());
+    for (std::size_t band = 0; band < by_band.size(); ++band) means[band] += by_band[band].irradiance;
+  });
+  for (double& mean : means) mean /= static_cast<double>(disc_count(run));
+  return means;
 }
 
 Counts<std::uint64_t> counted(const RunAnswer& answer) {
@@ -29,14 +33,26 @@ std::optional<sim::SumEstimate> estimated_hits(const RunAnswer& answer) {
   return sim::estimate_sum(outcome.batches, outcome.progress.of);
 }
 
-std::optional<sim::SumEstimate> estimated_irradiance(const Job& job, const RunAnswer& answer) {
+std::vector<sim::SumEstimate> estimated_irradiance(const Job& job, const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
-  if (!answer.has_random_rays() || outcome.irradiance_batches.rays == 0) return std::nullopt;
+  if (!answer.has_random_rays() || outcome.irradiance_batches.rays == 0) return {};
   const double share = static_cast<double>(outcome.progress.done) / static_cast<double>(outcome.progress.of);
-  sim::SumEstimate estimate{mean_irradiance(answer.run) / (powers_add_up(job) ? share : 1), std::nullopt};
-  const sim::SumEstimate sum = estimate_sum(outcome.irradiance_batches, outcome.progress.of);
-  if (sum.standard_error && sum.value > 0) estimate.standard_error = estimate.value * *sum.standard_error / sum.value;
-  return estimate;
+  std::vector<sim::SumEstimate> estimates;
+  for (const double mean : mean_irradiance(answer.run)) {
+    sim::SumEstimate estimate{mean / (powers_add_up(job) ? share : 1), std::nullopt};
+    const sim::Batches& batches = outcome.band(estimates.size()).irradiance_batches;
+    const sim::SumEstimate sum = estimate_sum(batches, outcome.progress.of);
+    if (sum.standard_error && sum.value > 0) estimate.standard_error = estimate.value * *sum.standard_error / sum.value;
+    estimates.push_back(estimate);
+  }
+  return estimates;
+}
+
+Json by_band(const Job& job, const std::vector<Json>& values) {
+  if (job.bands.empty()) return values.empty() ? Json() : values.front();
+  Json json = Json::object();
+  for (std::size_t band = 0; band < values.size(); ++band) json[job.bands[band]] = values[band];
+  return json;
 }
 
 namespace {
@@ -170,7 +186,7 @@ Json geometry_of(const Run& run) {
   Json json = geometry_json(job.polygons, job.normals_made, job.coincident);
   if (run.answer.run.outcome.stopped) return json;
   std::uint64_t unlit = 0;
-  for_each_disc(run.answer.run, [&](const sim::DiscResult& disc) { unlit += disc.hits == 0 ? 1 : 0; });
+  for_each_disc(run.answer.run, [&](std::span<const sim::DiscResult> disc) { unlit += disc[0].hits == 0 ? 1 : 0; });
   json["samples_unlit"] = unlit;
   return json;
 }
@@ -188,6 +204,18 @@ std::vector<std::string> warnings_of(const Run& run) {
   std::vector<std::string> all = run.job.all_said();
   for (std::string& one : answer_warnings(run.job, run.answer)) all.push_back(std::move(one));
   return all;
+}
+
+/// In tables a column for each band, if there are several.
+Field<Run> of_bands(const std::string& name, const std::string& unit, const std::string& meaning,
+                    const std::function<Json(const Run&)>& value) {
+  return Field<Run>(name, unit, meaning, value).by({name}, [name](const Run& run, const Json& values) {
+    Json cells = Json::object();
+    if (run.job.bands.empty()) cells[name] = values;
+    for (std::size_t band = 0; band < run.job.bands.size(); ++band)
+      if (values.is_object()) cells[name + "_" + run.job.bands[band]] = values[run.job.bands[band]];
+    return cells;
+  });
 }
 
 Json hits_estimate(const Run& run) {
@@ -240,18 +268,28 @@ const Fields<ShownRun>& run_fields() {
                   static_cast<double>(disc_count(one.answer.run));
          });
        }},
-      {"mean_irradiance", "power per area",
-       "mean over the discs; after a stop by all rays, as estimated from the first ones",
-       [](const Run& run) {
-         if (!run.answer.run.outcome.stopped) return Json(mean_irradiance(run.answer.run));
-         const auto mean = estimated_irradiance(run.job, run.answer);
-         return mean ? Json(mean->value) : Json();
-       }},
-      {"mean_irradiance_error", "power per area", "standard error of a mean that is estimated",
-       of_stopped([](const Run& run) {
-         const auto mean = estimated_irradiance(run.job, run.answer);
-         return mean ? mean->standard_error : std::nullopt;
-       })},
+      Field<Run>("bands", "", "of powers, by name",
+                 [](const Run& run) { return run.job.bands.empty() ? left_out() : Json(run.job.bands); })
+          .in_json_alone(),
+      of_bands(
+          "mean_irradiance", "power per area",
+          "mean over the discs; after a stop by all rays, as estimated from the first ones; of several bands by name",
+          [](const Run& run) {
+            std::vector<Json> means;
+            if (run.answer.run.outcome.stopped)
+              for (const sim::SumEstimate& mean : estimated_irradiance(run.job, run.answer))
+                means.emplace_back(mean.value);
+            else
+              for (const double mean : mean_irradiance(run.answer.run)) means.emplace_back(mean);
+            return by_band(run.job, means);
+          }),
+      of_bands("mean_irradiance_error", "power per area", "standard error of a mean that is estimated",
+               of_stopped([](const Run& run) {
+                 std::vector<Json> errors;
+                 for (const sim::SumEstimate& mean : estimated_irradiance(run.job, run.answer))
+                   errors.push_back(json_value(mean.standard_error));
+                 return by_band(run.job, errors);
+               })),
       {"missed_share", "", "of gather: share of the light that no backward path finds",
        of_gather([](const Run& run) { return run.answer.run.missed.share; })},
       {"missed_share_bound", "", "its upper bound, 95 %",

@@ -36,25 +36,34 @@ void write_pairs(const std::string& path, const JobRun& run, const std::vector<s
 }
 
 /// Hits and irradiance of each disc; with standard errors and bounds if they were asked for.
-void write_per_disc(const std::string& path, const JobRun& run, const std::vector<std::uint32_t>& vertices,
-                    const std::stop_token& stop) {
+void write_per_disc(const std::string& path, const JobRun& run, const Job& job, const std::stop_token& stop) {
+  const std::vector<std::uint32_t>& vertices = job.vertices;
   const bool errors = run.results ? run.results->errors() : !run.outcome.standard_error.empty();
   sim::WritingCheck check(path, disc_count(run), "discs", stop);
   sim::OutputFile file(path, stop);
-  file.write(fmt::format("disc,hits,irradiance{}{}\n", errors ? ",standard_error,upper_bound,standard_error_weak" : "",
-                         vertices.empty() ? "" : ",vertex"));
+  std::string line = "disc,hits";
+  for (const std::string& band : job.bands.empty() ? std::vector<std::string>{""} : job.bands) {
+    const std::string name = band.empty() ? "" : "_" + band;
+    line += ",irradiance" + name;
+    if (errors) line += fmt::format(",standard_error{0},upper_bound{0},standard_error_weak{0}", name);
+  }
+  file.write(line + (vertices.empty() ? "\n" : ",vertex\n"));
   std::uint64_t disc = 0;
-  for_each_disc(run, [&](const sim::DiscResult& found) {
+  for_each_disc(run, [&](std::span<const sim::DiscResult> by_band) {
     check.next();
     const auto finite = [](double one) { return std::isfinite(one) ? fmt::format("{}", one) : std::string(); };
-    const bool weak = sim::is_weak(found);
-    const std::string error = !errors ? ""
-                                      : fmt::format(",{},{},{}", finite(found.standard_error),
-                                                    weak ? finite(found.upper_bound) : "", weak ? 1 : 0);
+    line.clear();
+    for (const sim::DiscResult& found : by_band) {
+      line += fmt::format(",{}", found.irradiance);
+      const bool weak = sim::is_weak(found);
+      if (errors)
+        line +=
+            fmt::format(",{},{},{}", finite(found.standard_error), weak ? finite(found.upper_bound) : "", weak ? 1 : 0);
+    }
     const std::string vertex = vertices.empty()                   ? ""
                                : vertices[disc] == sim::no_vertex ? ",-1"
                                                                   : fmt::format(",{}", vertices[disc]);
-    file.write(fmt::format("{},{},{}{}{}\n", disc++, found.hits, found.irradiance, error, vertex));
+    file.write(fmt::format("{},{}{}{}\n", disc++, by_band[0].hits, line, vertex));
   });
   file.commit();
 }
@@ -73,13 +82,13 @@ WrittenRun write_files(const RunFiles& files, const Job& job, const RunAnswer& a
     if (is_estimate && files.per_disc) {
       written.notices.push_back(fmt::format("{} has the irradiance by the photons of the first {} rays",
                                             *files.per_disc, outcome.progress.done));
-      write_per_disc(*files.per_disc, answer.run, job.vertices, {});
+      write_per_disc(*files.per_disc, answer.run, job, {});
     }
     written.stopped = outcome.progress;
     return written;
   }
   try {
-    if (files.per_disc) write_per_disc(*files.per_disc, answer.run, job.vertices, stop);
+    if (files.per_disc) write_per_disc(*files.per_disc, answer.run, job, stop);
     if (files.pairs) write_pairs(*files.pairs, answer.run, job.file_order, stop);
   } catch (const sim::Stopped& stopped) {
     written.notices.push_back(fmt::format("{}; the file is not kept", stopped.what()));

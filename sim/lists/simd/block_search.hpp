@@ -12,6 +12,21 @@ namespace detp::sim::stream {
 /// Hits of one disc by rays of each class.
 using ClassCounts = std::array<std::uint32_t, classes>;
 
+/// What is summed in bands 1, 2, … of the rays' powers.
+struct FurtherSums {
+  std::size_t bands = 0;
+  const double* powers = nullptr;  ///< of the block's rays, a row of `bands` for each
+  double* sums = nullptr;          ///< rows of `bands`, for each place and class
+  PhotonSums* photons = nullptr;   ///< as BlockSearch::photons, band by band
+  std::size_t places = 0;          ///< of each band
+  const double* units = nullptr;   ///< as BlockSearch::unit, of each band
+
+  [[nodiscard]] PhotonSums& photons_of(std::size_t place, std::size_t band) const {
+    return photons[band * places + place];
+  }
+  [[nodiscard]] double* row(std::size_t place, std::size_t k) const { return sums + (place * classes + k) * bands; }
+};
+
 /// Data that all threads read during the search of a block of rays.
 struct BlockSearch {
   const Problem& problem;
@@ -27,6 +42,7 @@ struct BlockSearch {
   PhotonSums* photons = nullptr;
   const double* powers = nullptr;  ///< of the block's rays; null if hits are only counted
   double unit = 1;                 ///< u of the squares in PhotonSums
+  FurtherSums further = {};
 };
 
 /// Whether a disc must be tested with the rays of all classes at once (test_all_classes): for sums over photons that have

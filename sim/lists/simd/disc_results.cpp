@@ -79,12 +79,15 @@ DiscResults::DiscResults(const Problem& problem, const DiscTree& tree, const Run
       own_(0, options.memory),
       sums_(options.memory),
       photons_(options.memory),
+      further_(options.memory),
+      units_(options.memory),
       hits_(tree.discs.size(), options.memory),
       first_photon_(first_photon(options)),
       last_block_(last_block(problem, options)),
       snapshot_(options.memory) {
   if (options.standard_error) own_.keep_errors();
-  totals().expect_powers(problem.largest_power());
+  totals().expect_powers(problem);
+  for (std::size_t band = 1; band < problem.bands(); ++band) units_.push_back(totals().band(band).unit());
   if (options.totals != nullptr) ensure_sums();
   if (totals().block() == last_block_) return;
   ensure_sums();
@@ -92,10 +95,37 @@ DiscResults::DiscResults(const Problem& problem, const DiscTree& tree, const Run
   snapshot_.earlier.emplace(totals(), options.memory);
 }
 
+PhotonSums* DiscResults::photons_of(std::size_t place, std::size_t band) {
+  if (photons_.empty()) return nullptr;
+  return band == 0 ? &photons_[place] : &further_.photons[(band - 1) * photons_.size() + place];
+}
+
+/// The sums of the block of photons under way.
+DiscTotals DiscResults::sums_of(std::size_t place, std::size_t band) const {
+  if (band == 0) return sums_[place];
+  const std::size_t bands = units_.size();
+  const double* const x = &further_.sums[place * classes * bands + band - 1];
+  return {sums_[place].hits, {x[0], x[bands], x[2 * bands]}};
+}
+
+void DiscResults::set_power(std::size_t place, std::size_t band, const glm::dvec3& power) {
+  if (band == 0) {
+    sums_[place].power = power;
+    return;
+  }
+  const std::size_t bands = units_.size();
+  double* const x = &further_.sums[place * classes * bands + band - 1];
+  x[0] = power.x;
+  x[bands] = power.y;
+  x[2 * bands] = power.z;
+}
+
 void DiscResults::ensure_sums() {
   if (!sums_.empty()) return;
   sums_.resize(tree_.discs.size());
   if (totals().keeps_errors()) photons_.resize(tree_.discs.size());
+  further_.sums.resize(units_.size() * classes * sums_.size());
+  further_.photons.resize(units_.size() * photons_.size());
   if (options_.totals == nullptr) return;
   if (totals().empty()) totals().resize(tree_.discs.size());
   const Totals& all = totals();
@@ -108,6 +138,11 @@ void DiscResults::ensure_sums() {
       [&](std::size_t place) {
         sums_[place] = all[tree_.order[place]];
         if (!photons_.empty()) photons_[place] = all.photon_sums(tree_.order[place]);
+        for (std::size_t band = 1; band <= units_.size(); ++band) {
+          const Totals& further = all.band(band);
+          set_power(place, band, further[tree_.order[place]].power);
+          if (!photons_.empty()) *photons_of(place, band) = further.photon_sums(tree_.order[place]);
+        }
       });
 }
 
@@ -121,7 +156,12 @@ void DiscResults::begin_photons(std::size_t first_ray) {
   for_each_place(
       sums_.size(), [&](std::size_t place) { all.prefetch(tree_.order[place], before); },
       [&](std::size_t place) {
-        all.fold(tree_.order[place], before, block, sums_[place], photons_.empty() ? nullptr : &photons_[place]);
+        all.fold(tree_.order[place], before, block, sums_[place], photons_of(place, 0));
+        for (std::size_t band = 1; band <= units_.size(); ++band) {
+          DiscTotals sums = sums_of(place, band);
+          all.band(band).fold(tree_.order[place], before, block, sums, photons_of(place, band));
+          set_power(place, band, sums.power);
+        }
       });
   totals().begin_block(block);
 }
@@ -130,8 +170,8 @@ BlockSearch DiscResults::begin(const Frame& frame, const Block& rays) {
   const std::size_t first_ray = rays.first();
   begin_photons(first_ray);
   const bool errors = totals().keeps_errors();
-  const bool only_count =
-      rays.traits().power && !options_.pairs && !problem_.front_facing() && !(errors && problem_.numbered());
+  const bool one_power = rays.traits().power && (units_.empty() || problem_.one_power());
+  const bool only_count = one_power && !options_.pairs && !problem_.front_facing() && !(errors && problem_.numbered());
   const std::optional<double> power = only_count ? rays.traits().power : std::nullopt;
   if (first_ray > 0 && power != counted_power_) add_counted_hits();
   counted_power_ = power;
@@ -147,7 +187,13 @@ BlockSearch DiscResults::begin(const Frame& frame, const Block& rays) {
           .totals = only_count ? nullptr : sums_.data(),
           .photons = errors && !only_count ? photons_.data() : nullptr,
           .powers = rays.powers(),
-          .unit = totals().unit()};
+          .unit = totals().unit(),
+          .further = {.bands = units_.size(),
+                      .powers = problem_.further().from(first_ray).values.data(),
+                      .sums = further_.sums.data(),
+                      .photons = further_.photons.data(),
+                      .places = sums_.size(),
+                      .units = units_.data()}};
 }
 
 void DiscResults::add_counted_hits() {
@@ -160,30 +206,38 @@ void DiscResults::add_counted_hits() {
 
 /// The same for the discs at places first … last - 1. Returns the number of their hits.
 std::uint64_t DiscResults::add_counted_hits(std::size_t first, std::size_t last) {
+  for (std::size_t band = 0; counted_power_ && band <= units_.size(); ++band) add_counted_powers(first, last, band);
   std::uint64_t found = 0;
-  std::optional<RepeatedSums> sums;
-  std::optional<RepeatedSums> squares;
-  if (counted_power_) sums.emplace(*counted_power_, options_.memory);
-  if (counted_power_ && !photons_.empty()) {
-    const double power = totals().unit() * *counted_power_;
-    squares.emplace(power * power, options_.memory);
-  }
   for (std::size_t place = first; place < last; ++place) {
-    PhotonSums* const photons = squares ? &photons_[place] : nullptr;
-    std::uint32_t added = 0;
-    for (int k = 0; k < classes; ++k) {
-      const std::uint32_t count = std::exchange(hits_[place][static_cast<std::size_t>(k)], 0);
-      if (sums) sums_[place].power[k] = sums->add(sums_[place].power[k], count);
-      if (photons != nullptr) photons->squares[k] = squares->add(photons->squares[k], count);
-      added += count;
-    }
+    const auto [x, y, z] = std::exchange(hits_[place], {});
+    const std::uint64_t added = std::uint64_t{x} + y + z;
     sums_[place].hits += added;
     found += added;
-    if (photons == nullptr || added == 0) continue;
-    photons->largest = std::max(photons->largest, *counted_power_);
-    photons->add_photons(added);
   }
   return found;
+}
+
+void DiscResults::add_counted_powers(std::size_t first, std::size_t last, std::size_t band) {
+  const double power = counted_power(band);
+  const double scaled = totals().band(band).unit() * power;
+  RepeatedSums sums(power, options_.memory);
+  RepeatedSums squares(scaled * scaled, options_.memory);
+  for (std::size_t place = first; place < last; ++place) {
+    const ClassCounts& hits = hits_[place];
+    PhotonSums* const photons = photons_of(place, band);
+    glm::dvec3 sum = sums_of(place, band).power;
+    std::uint32_t added = 0;
+    for (int k = 0; k < classes; ++k) {
+      const std::uint32_t count = hits[static_cast<std::size_t>(k)];
+      sum[k] = sums.add(sum[k], count);
+      if (photons != nullptr) photons->squares[k] = squares.add(photons->squares[k], count);
+      added += count;
+    }
+    set_power(place, band, sum);
+    if (photons == nullptr || added == 0) continue;
+    photons->largest = std::max(photons->largest, power);
+    photons->add_photons(added);
+  }
 }
 
 void DiscResults::end_complete_block(const Block& block, std::uint64_t tests) {
@@ -199,8 +253,10 @@ void DiscResults::end_complete_block(const Block& block, std::uint64_t tests) {
 /// If a copy of the results fits the memory budget, adds the bytes that it needs beyond those of the previous copy to
 /// the outcome's bytes, and returns true. Otherwise returns false; a stopped run then returns the previous copy.
 bool DiscResults::has_room_for_snapshot() {
-  const double copy = bytes_of(hits_) + bytes_of(sums_) + bytes_of(photons_);
-  const double more = copy - bytes_of(snapshot_.counts) - bytes_of(snapshot_.sums) - bytes_of(snapshot_.photons);
+  const auto further = [](const FurtherBands& bands) { return bytes_of(bands.sums) + bytes_of(bands.photons); };
+  const double copy = bytes_of(hits_) + bytes_of(sums_) + bytes_of(photons_) + further(further_);
+  const double more = copy - bytes_of(snapshot_.counts) - bytes_of(snapshot_.sums) - bytes_of(snapshot_.photons) -
+                      further(snapshot_.further);
   if (!fits_memory(outcome_.bytes + more, problem_)) return false;
   outcome_.bytes += more;
   return true;
@@ -225,6 +281,7 @@ void DiscResults::take_snapshot() {
   snapshot_.hits = found;
   snapshot_.sums = sums_;
   snapshot_.photons = photons_;
+  snapshot_.further = further_;
   if (snapshot_.earlier) *snapshot_.earlier = totals();
   snapshot_.counts = hits_;
   snapshot_.counted_power = counted_power_;
@@ -235,6 +292,7 @@ void DiscResults::restore_snapshot() {
   rays_ = snapshot_.rays;
   sums_ = std::move(snapshot_.sums);
   photons_ = std::move(snapshot_.photons);
+  further_ = std::move(snapshot_.further);
   if (snapshot_.earlier) totals() = *snapshot_.earlier;
   hits_ = std::move(snapshot_.counts);
   hits_.resize(tree_.discs.size());
@@ -261,15 +319,13 @@ void DiscResults::finish_outcome(std::span<const DiscRun> skipped) {
   if (rays_ > snapshot_.rays)
     batches_.add(rays_ - snapshot_.rays, static_cast<double>(outcome_.total_hits - snapshot_.hits));
   outcome_.batches = batches_;
-  if (outcome_.stopped) outcome_.standard_error.clear();
-  if (outcome_.stopped) outcome_.upper_bound.clear();
+  if (outcome_.stopped) outcome_.clear_errors();
   if (by_discs_) mark_done_discs(skipped);
 }
 
 /// Fills in the outcome without totals, from counts of hits of equal power.
 void DiscResults::store_counted() const {
-  outcome_.hits.resize(hits_.size());
-  outcome_.irradiance.resize(hits_.size());
+  resize_results(hits_.size(), false, outcome_, problem_.bands());
   std::atomic<std::uint64_t> found = 0;
   sim::parallel_for(ParallelRange(0, hits_.size(), 1U << 14),
                     [&](const auto& range) { found += store_counted(range.begin(), range.end()); });
@@ -300,7 +356,19 @@ std::uint64_t DiscResults::store_counted(std::size_t first, std::size_t last) co
       found += outcome_.hits[disc];
     }
   }
+  for (std::size_t band = 1; band < problem_.bands(); ++band) store_counted(first, last, band);
   return found;
+}
+
+/// The same in a further band.
+void DiscResults::store_counted(std::size_t first, std::size_t last, std::size_t band) const {
+  RepeatedSums sums(counted_power(band), options_.memory);
+  for (std::size_t place = first; place < last; ++place) {
+    const auto& [x, y, z] = hits_[place];
+    const std::uint32_t disc = tree_.order[place];
+    const FoundSums found{0, (sums.add(0, x) + sums.add(0, y)) + sums.add(0, z), problem_.discs()[disc].radius};
+    outcome_.further[band - 1].irradiance[disc] = result_of(found, nullptr, 0, 0, problem_.scale()).irradiance;
+  }
 }
 
 void DiscResults::store_totals() {
@@ -308,10 +376,14 @@ void DiscResults::store_totals() {
   outcome_.total_hits = found_;
   totals().add_rays(problem_);
   const bool own = options_.totals == nullptr;
-  if (own) resize_results(sums_.size(), !photons_.empty(), outcome_);
-  for (PhotonSums& photons : photons_) photons.close(totals().unit());
-  const double heaviest = heaviest_photon(photons_, problem_.largest_power());
+  if (own) resize_results(sums_.size(), !photons_.empty(), outcome_, problem_.bands());
   Totals& all = totals();
+  std::pmr::vector<double> heaviest(options_.memory);
+  for (std::size_t band = 0; band < problem_.bands(); ++band) {
+    const std::span<PhotonSums> photons(photons_of(0, band), photons_.size());
+    for (PhotonSums& one : photons) one.close(all.band(band).unit());
+    heaviest.push_back(heaviest_photon(photons, problem_.largest_power(band)));
+  }
   // Where nothing hits, the results are 0 already.
   const auto is_zero = [&](std::size_t place) { return photons_.empty() && sums_[place].hits == 0; };
   const auto fetch = [&](std::size_t place) {
@@ -327,13 +399,18 @@ void DiscResults::store_totals() {
   };
   for_each_place(sums_.size(), fetch, [&](std::size_t place) {
     const std::uint32_t disc = tree_.order[place];
-    const PhotonSums* const photons = photons_.empty() ? nullptr : &photons_[place];
-    if (own) {
-      if (is_zero(place)) return;
-      finish_disc(own_, problem_.discs()[disc], disc, sums_[place], photons, heaviest, outcome_);
-    } else {
-      all[disc] = sums_[place];
-      if (photons != nullptr) all.photon_sums(disc) = *photons;
+    if (own && is_zero(place)) return;
+    if (own) outcome_.hits[disc] = sums_[place].hits;
+    for (std::size_t band = 0; band < heaviest.size(); ++band) {
+      const DiscTotals sums = sums_of(place, band);
+      const PhotonSums* const photons = photons_of(place, band);
+      Totals& to = all.band(band);
+      if (own) {
+        finish_disc(to, problem_.discs()[disc], disc, sums, photons, heaviest[band], outcome_.band(band));
+      } else {
+        to[disc] = sums;
+        if (photons != nullptr) to.photon_sums(disc) = *photons;
+      }
     }
   });
 }

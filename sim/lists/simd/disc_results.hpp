@@ -56,13 +56,22 @@ class DiscResults {
   }
 
  private:
+  /// Sums in bands 1, 2, …, with which sums_ and photons_ are those of band 0.
+  struct FurtherBands {
+    explicit FurtherBands(std::pmr::memory_resource* memory) : sums(memory), photons(memory) {}
+    std::pmr::vector<double> sums;         ///< as FurtherSums::sums
+    std::pmr::vector<PhotonSums> photons;  ///< as FurtherSums::photons; empty unless errors are kept
+  };
+
   /// A copy of the results after the first `rays` rays.
   struct Snapshot {
-    explicit Snapshot(std::pmr::memory_resource* memory) : sums(memory), photons(memory), counts(memory) {}
+    explicit Snapshot(std::pmr::memory_resource* memory)
+        : sums(memory), photons(memory), further(memory), counts(memory) {}
     std::size_t rays = 0;
     std::uint64_t hits = 0;
     std::pmr::vector<DiscTotals> sums;
     std::pmr::vector<PhotonSums> photons;
+    FurtherBands further;
     std::pmr::vector<ClassCounts> counts;
     std::optional<Totals> earlier = {};  ///< only if the rays are of several blocks of photons
     std::optional<double> counted_power = {};
@@ -97,11 +106,19 @@ class DiscResults {
   void finish_outcome(std::span<const DiscRun> skipped);
   [[nodiscard]] Totals& totals() { return options_.totals == nullptr ? own_ : *options_.totals; }
   void ensure_sums();
+  [[nodiscard]] PhotonSums* photons_of(std::size_t place, std::size_t band);
+  [[nodiscard]] DiscTotals sums_of(std::size_t place, std::size_t band) const;
+  void set_power(std::size_t place, std::size_t band, const glm::dvec3& power);
+  [[nodiscard]] double counted_power(std::size_t band) const {
+    return band == 0 ? *counted_power_ : problem_.power(0, band);
+  }
   void begin_photons(std::size_t first_ray);
   void add_counted_hits();
   std::uint64_t add_counted_hits(std::size_t first, std::size_t last);
+  void add_counted_powers(std::size_t first, std::size_t last, std::size_t band);
   void store_counted() const;
   [[nodiscard]] std::uint64_t store_counted(std::size_t first, std::size_t last) const;
+  void store_counted(std::size_t first, std::size_t last, std::size_t band) const;
   void store_totals();
 
   const Problem& problem_;
@@ -111,12 +128,14 @@ class DiscResults {
   Totals own_;                         ///< if options.totals is null; has only the sums over earlier blocks of photons
   std::pmr::vector<DiscTotals> sums_;  ///< of the block of photons under way; empty while hits have only been counted
   std::pmr::vector<PhotonSums> photons_;  ///< empty unless errors are kept
-  std::pmr::vector<ClassCounts> hits_;    ///< hits that are not yet in the sums
-  std::optional<double> counted_power_;   ///< power of each ray in hits_; nullopt if these powers are in the sums
-  std::uint64_t found_ = 0;               ///< hits in the sums, not including those of earlier runs
-  std::size_t rays_ = 0;                  ///< all discs have been searched for the first rays_ rays
-  bool partial_ = false;                  ///< the last block ended with only some discs searched
-  bool by_discs_ = false;                 ///< partial_, and that block has all rays: some discs are complete
+  FurtherBands further_;
+  std::pmr::vector<double> units_;       ///< of bands 1, 2, …
+  std::pmr::vector<ClassCounts> hits_;   ///< hits that are not yet in the sums
+  std::optional<double> counted_power_;  ///< power of each ray in hits_; nullopt if these powers are in the sums
+  std::uint64_t found_ = 0;              ///< hits in the sums, not including those of earlier runs
+  std::size_t rays_ = 0;                 ///< all discs have been searched for the first rays_ rays
+  bool partial_ = false;                 ///< the last block ended with only some discs searched
+  bool by_discs_ = false;                ///< partial_, and that block has all rays: some discs are complete
   std::uint64_t first_photon_;
   std::uint64_t last_block_;  ///< of photons
   std::uint64_t tests_at_snapshot_ = 0;

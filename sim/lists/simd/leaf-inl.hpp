@@ -92,6 +92,42 @@ HWY_INLINE std::uint32_t* room_for_hits(std::size_t rays, Worker& worker) {
   return worker.found.data();
 }
 
+/// Adds the powers in `count` further bands, from one on, in ray order.
+template <std::size_t count>
+HWY_INLINE void add_bands(const FurtherSums& further, std::size_t band, const FoundRays& rays, double* row) {
+  double sums[count];
+  std::copy_n(row + band, count, sums);
+  for (const std::uint32_t* ray = rays.first; ray != rays.last; ++ray) {
+    const double* const powers = further.powers + *ray * further.bands + band;
+    for (std::size_t i = 0; i < count; ++i) sums[i] += powers[i];
+  }
+  std::copy_n(sums, count, row + band);
+}
+
+/// What add_powers does in band 0, in all others.
+HWY_NOINLINE inline void add_further_powers(const BlockSearch& block, std::uint32_t place, std::size_t k,
+                                            const FoundRays& rays) {
+  if (rays.first == rays.last) return;
+  const FurtherSums& further = block.further;
+  double* const row = further.row(place, k);
+  std::size_t band = 0;
+  for (; band + 8 <= further.bands; band += 8) add_bands<8>(further, band, rays, row);
+  for (; band + 2 <= further.bands; band += 2) add_bands<2>(further, band, rays, row);
+  for (; band < further.bands; ++band) add_bands<1>(further, band, rays, row);
+  if (block.photons == nullptr || block.problem.numbered()) return;
+  for (band = 0; band < further.bands; ++band) {
+    PhotonSums& photons = further.photons_of(place, band);
+    const double unit = further.units[band];
+    double& squares = photons.squares[static_cast<int>(k)];
+    for (const std::uint32_t* ray = rays.first; ray != rays.last; ++ray) {
+      const double one = further.powers[*ray * further.bands + band];
+      squares += (unit * one) * (unit * one);
+      photons.largest = std::max(photons.largest, one);
+    }
+    photons.add_photons(static_cast<std::uint64_t>(rays.last - rays.first));
+  }
+}
+
 /// Adds the powers of one class's rays that hit the disc, in ray order; and their squares, if each ray is a photon.
 HWY_INLINE void add_powers(const BlockSearch& block, std::uint32_t place, std::size_t k, const FoundRays& rays) {
   const auto axis = static_cast<int>(k);
@@ -114,6 +150,7 @@ HWY_INLINE void add_powers(const BlockSearch& block, std::uint32_t place, std::s
     photons.add_photons(static_cast<std::uint64_t>(rays.last - rays.first));
   }
   block.totals[place].power[axis] = power;
+  if (HWY_UNLIKELY(block.further.bands != 0)) add_further_powers(block, place, k, rays);
 }
 
 HWY_INLINE void keep_pairs(const BlockSearch& block, std::uint32_t place, const FoundRays& rays, Worker& worker) {
@@ -124,10 +161,9 @@ HWY_INLINE void keep_pairs(const BlockSearch& block, std::uint32_t place, const 
 
 /// Adds a disc's hits to the sums of its photons, if these have several rays: merges the three classes in ray order, and does
 /// what PhotonSums::add does, without branches that cannot be foreseen. The last photon stays under way, for it may have rays in
-/// the next block. UINT32_MAX must follow the rays of each class.
-HWY_NOINLINE inline void add_photons(const BlockSearch& block, std::uint32_t place,
-                                     const std::array<FoundRays, classes>& found) {
-  PhotonSums& sums = block.photons[place];
+/// the next block. UINT32_MAX must follow the rays of each class. `powers` of the block's rays are `stride` apart.
+HWY_NOINLINE inline void add_photons(const BlockSearch& block, const double* powers, std::size_t stride, double unit,
+                                     PhotonSums& sums, const std::array<FoundRays, classes>& found) {
   const std::uint64_t* const photons = block.problem.photons().data() + block.first_ray;
   const std::uint32_t* next_x = found[0].first;
   const std::uint32_t* next_y = found[1].first;
@@ -148,7 +184,7 @@ HWY_NOINLINE inline void add_photons(const BlockSearch& block, std::uint32_t pla
     return value;
   };
   const auto close = [&] {
-    const double scaled = block.unit * open;
+    const double scaled = unit * open;
     const auto square = std::bit_cast<std::uint64_t>(scaled * scaled);
     squares_x += std::bit_cast<double>(square & masks[axis][0]);
     squares_y += std::bit_cast<double>(square & masks[axis][1]);
@@ -171,7 +207,7 @@ HWY_NOINLINE inline void add_photons(const BlockSearch& block, std::uint32_t pla
       axis = (y == ray ? 1U : 0U) + (z == ray ? 2U : 0U);
       open = 0;
     }
-    open += block.powers[ray];
+    open += powers[ray * stride];
   }
   sums.squares = {squares_x, squares_y, squares_z};
   sums.largest = largest;
@@ -218,7 +254,12 @@ HWY_INLINE void test_all(const BlockSearch& block, const TreeNode& leaf, const R
     keep(0, find_hits<segments, front_facing, 0>(block, place, lists[0], end, worker));
     keep(1, find_hits<segments, front_facing, 1>(block, place, lists[1], end, worker));
     keep(2, find_hits<segments, front_facing, 2>(block, place, lists[2], end, worker));
-    if (end - room > classes && needs_all_classes(block)) add_photons(block, place, found);
+    if (end - room <= classes || !needs_all_classes(block)) continue;
+    add_photons(block, block.powers, 1, block.unit, block.photons[place], found);
+    const FurtherSums& further = block.further;
+    for (std::size_t band = 0; band < further.bands; ++band)
+      add_photons(block, further.powers + band, further.bands, further.units[band], further.photons_of(place, band),
+                  found);
   }
   worker.counts.visits += leaf.count;
   worker.counts.disc_tests += leaf.count * size(lists);

@@ -125,9 +125,10 @@ TEST_SUITE("identity") {
         CHECK(stored->numbered() == numbered);
         CHECK(stored->photons() == (numbered ? whole.paths.photons.back() + 1 : many));
         std::vector<Ray> block(40'000);
-        std::vector<std::uint64_t> photons;
+        BesideRays beside;
+        const std::vector<std::uint64_t>& photons = beside.photons;
         for (const std::size_t first : {std::size_t{0}, std::size_t{50'001}, many - block.size()}) {
-          stored->read_numbered(first, block, photons);
+          stored->read_all(first, block, beside);
           CHECK(std::memcmp(block.data(), whole.paths.rays.data() + first, block.size() * sizeof(Ray)) == 0);
           if (numbered)
             CHECK(std::equal(photons.begin(), photons.end(), whole.paths.photons.begin() + std::ptrdiff_t(first)));

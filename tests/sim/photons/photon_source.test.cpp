@@ -23,13 +23,14 @@ namespace {
 /// All rays of the source, with the powers of photon_paths.
 Paths read_all(const PhotonSource& source, std::size_t block) {
   Paths paths;
-  std::vector<std::uint64_t> photons;
+  BesideRays beside;
+  const std::vector<std::uint64_t>& photons = beside.photons;
   while (paths.rays.size() < source.size()) {
     const std::size_t first = paths.rays.size();
     const std::uint64_t end = source.block_end(first, block);
     REQUIRE(end > first);
     paths.rays.resize(end);
-    source.read_numbered(first, std::span(paths.rays).subspan(first), photons);
+    source.read_all(first, std::span(paths.rays).subspan(first), beside);
     paths.photons.insert(paths.photons.end(), photons.begin(), photons.end());
     CHECK(source.photons_of(end) > photons.back());
   }

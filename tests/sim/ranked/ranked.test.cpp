@@ -45,6 +45,16 @@ class UnequalLines final : public RaySource {
     for (std::size_t i = 0; i < block.size(); ++i)
       block[i].power = std::exp(20 * uniform4(5, Stream::tests, first + i)[0]);
   }
+  [[nodiscard]] std::size_t bands() const override { return 3; }
+  void read_all(std::uint64_t first, std::span<Ray> block, BesideRays& beside,
+                const std::stop_token& stop) const override {
+    read(first, block, stop);
+    beside.further.clear();
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const auto random = uniform4(5, Stream::tests, first + i);
+      beside.further.insert(beside.further.end(), {1e3 * random[1], std::exp(20 * random[2])});
+    }
+  }
   [[nodiscard]] double farthest_from(const glm::dvec3& point) const override { return lines_.farthest_from(point); }
   [[nodiscard]] std::uint64_t made() const { return made_; }
 
@@ -78,12 +88,15 @@ StreamedOutcome with_arrays(RankedOutcome ranked) {
   Outcome& outcome = ranked.found.outcome;
   CHECK(outcome.hits.empty());
   CHECK(outcome.pairs.empty());
-  ranked.results->for_each_disc([&](const DiscResult& result) {
-    outcome.hits.push_back(result.hits);
-    outcome.irradiance.push_back(result.irradiance);
-    if (!ranked.results->errors()) return;
-    outcome.standard_error.push_back(result.standard_error);
-    outcome.upper_bound.push_back(result.upper_bound);
+  ranked.results->for_each_disc([&](std::span<const DiscResult> by_band) {
+    outcome.hits.push_back(by_band[0].hits);
+    outcome.further.resize(by_band.size() - 1);
+    for (std::size_t band = 0; band < by_band.size(); ++band) {
+      outcome.band(band).irradiance.push_back(by_band[band].irradiance);
+      if (!ranked.results->errors()) continue;
+      outcome.band(band).standard_error.push_back(by_band[band].standard_error);
+      outcome.band(band).upper_bound.push_back(by_band[band].upper_bound);
+    }
   });
   ranked.results->for_each_pair([&](const Pair& pair) { outcome.pairs.push_back(pair); });
   return std::move(ranked.found);

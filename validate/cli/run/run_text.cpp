@@ -68,20 +68,31 @@ double hits_per_disc(const RunAnswer& answer) {
   return static_cast<double>(answer.run.outcome.total_hits) / static_cast<double>(disc_count(answer.run));
 }
 
+/// "0.5", or "r 0.5, g 0.25".
+std::string by_band(const validate::Job& job, const std::vector<double>& values) {
+  if (job.bands.empty()) return fmt::format("{:.6g}", values.front());
+  std::string text;
+  for (std::size_t band = 0; band < values.size(); ++band)
+    text += fmt::format("{}{} {:.6g}", band == 0 ? "" : ", ", job.bands[band], values[band]);
+  return text;
+}
+
 std::string hits_text(const validate::Job& job, const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
   if (!outcome.stopped)
-    return fmt::format("{}, {:.4g} a disc; mean irradiance {:.6g}", outcome.total_hits, hits_per_disc(answer),
-                       validate::mean_irradiance(answer.run));
+    return fmt::format("{}, {:.4g} a disc; mean irradiance {}", outcome.total_hits, hits_per_disc(answer),
+                       by_band(job, validate::mean_irradiance(answer.run)));
   std::string text =
       fmt::format("{} of the {} {} done", outcome.total_hits, outcome.progress.done, outcome.progress.unit);
   if (const auto all = validate::estimated_hits(answer)) {
     text += fmt::format("; of all rays an estimated {:.5g}", all->value);
     text += with_error(all->standard_error);
   }
-  if (const auto mean = validate::estimated_irradiance(job, answer))
-    text +=
-        fmt::format("; mean irradiance by all an estimated {:.6g}{}", mean->value, with_error(mean->standard_error));
+  const std::vector<sim::SumEstimate> means = validate::estimated_irradiance(job, answer);
+  for (std::size_t band = 0; band < means.size(); ++band)
+    text += fmt::format("; mean irradiance by all{} an estimated {:.6g}{}",
+                        job.bands.empty() ? "" : " in " + job.bands[band], means[band].value,
+                        with_error(means[band].standard_error));
   return text;
 }
 
