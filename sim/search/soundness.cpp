@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -185,6 +186,18 @@ void check_paths(const PathRays& paths, std::uint64_t first, StopCheck& check) {
   });
 }
 
+namespace {
+
+/// Throws for the first malformed power of the rays from `start` on.
+[[noreturn]] void refuse_further(const FurtherPowers& all, std::size_t start, double most_power, std::uint64_t first) {
+  for (std::size_t i = start * all.bands;; ++i)
+    if (!(all.values[i] >= 0 && all.values[i] <= most_power))
+      throw std::invalid_argument(fmt::format("ray {}: power of band {} must be 0 to {:.3g} (got {})",
+                                              first + i / all.bands, i % all.bands + 1, most_power, all.values[i]));
+}
+
+}  // namespace
+
 PowerRange check_further(const PathRays& paths, double most_power, std::uint64_t first, StopCheck& check) {
   const FurtherPowers& all = paths.further;
   if (all.bands >= most_bands)
@@ -194,17 +207,28 @@ PowerRange check_further(const PathRays& paths, double most_power, std::uint64_t
                                             all.bands, paths.rays.size()));
   PowerRange range{std::vector<double>(all.bands), true};
   if (all.bands == 0) return range;
-  const std::span<const double> of_first = all.of(0);
-  for_each_checked(0, paths.rays.size(), check, [&](std::size_t ray) {
-    const std::span<const double> powers = all.of(ray);
-    for (std::size_t band = 0; band < all.bands; ++band) {
-      if (!(powers[band] >= 0 && powers[band] <= most_power))
-        throw std::invalid_argument(fmt::format("ray {}: power of band {} must be 0 to {:.3g} (got {})", first + ray,
-                                                band + 1, most_power, powers[band]));
-      range.largest[band] = std::max(range.largest[band], powers[band]);
-      range.all_equal = range.all_equal && powers[band] == of_first[band];
+  // Chunks without branches, which the compiler turns into vectors.
+  const std::size_t at_once = std::max<std::size_t>(1, 4096 / all.bands);
+  const double* const of_first = all.values.data();
+  std::array<double, most_bands> largest{};
+  for (std::size_t start = 0; start < paths.rays.size(); start += at_once) {
+    const std::size_t end = std::min(paths.rays.size(), start + at_once);
+    check.after(end - start);
+    bool unequal = false;
+    bool sound = true;
+    for (std::size_t ray = start; ray < end; ++ray) {
+      const double* const powers = of_first + ray * all.bands;
+      for (std::size_t band = 0; band < all.bands; ++band) {
+        const double power = powers[band];
+        sound = sound & (power >= 0) & (power <= most_power);
+        largest[band] = std::max(largest[band], power);
+        unequal = unequal | (power != of_first[band]);
+      }
     }
-  });
+    range.all_equal = range.all_equal && !unequal;
+    if (!sound) refuse_further(all, start, most_power, first);
+  }
+  std::copy_n(largest.begin(), all.bands, range.largest.begin());
   return range;
 }
 

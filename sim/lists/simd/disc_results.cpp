@@ -50,16 +50,21 @@ std::size_t find_hits(std::span<const ClassCounts> hits, std::size_t& place, std
   return count;
 }
 
-/// Calls visit(place) for all places, in parallel. Some places before that, calls fetch(place): what the visit will use, in another order than that of
-/// the places, is then on its way from memory.
+/// Calls visit(place, band) for all places and bands, in parallel. Some places before that, calls fetch(place, band): what the visit will use, in another
+/// order than that of the places, is then on its way from memory. Some places at a time, so that their rows of sums stay in the cache.
 template <class Fetch, class Visit>
-void for_each_place(std::size_t places, const Fetch& fetch, const Visit& visit) {
+void for_each_place(std::size_t places, std::size_t bands, const Fetch& fetch, const Visit& visit) {
   constexpr std::size_t at_once = std::size_t{1} << 14;
   constexpr std::size_t ahead = 16;
+  const std::size_t in_cache = bands == 1 ? at_once : 256;
   sim::parallel_for(ParallelRange(0, places, at_once), [&](const ParallelRange& part) {
-    for (std::size_t place = part.begin(); place < part.end(); ++place) {
-      fetch(std::min(place + ahead, part.end() - 1));
-      visit(place);
+    for (std::size_t first = part.begin(); first < part.end(); first += in_cache) {
+      const std::size_t end = std::min(part.end(), first + in_cache);
+      for (std::size_t band = 0; band < bands; ++band)
+        for (std::size_t place = first; place < end; ++place) {
+          fetch(std::min(place + ahead, part.end() - 1), band);
+          visit(place, band);
+        }
     }
   });
 }
@@ -128,21 +133,18 @@ void DiscResults::ensure_sums() {
   further_.photons.resize(units_.size() * photons_.size());
   if (options_.totals == nullptr) return;
   if (totals().empty()) totals().resize(tree_.discs.size());
-  const Totals& all = totals();
   for_each_place(
-      sums_.size(),
-      [&](std::size_t place) {
-        hwy::Prefetch(&all[tree_.order[place]]);
-        if (!photons_.empty()) hwy::Prefetch(&all.photon_sums(tree_.order[place]));
+      sums_.size(), problem_.bands(),
+      [&](std::size_t place, std::size_t band) {
+        hwy::Prefetch(&totals().band(band)[tree_.order[place]]);
+        if (!photons_.empty()) hwy::Prefetch(&totals().band(band).photon_sums(tree_.order[place]));
       },
-      [&](std::size_t place) {
-        sums_[place] = all[tree_.order[place]];
-        if (!photons_.empty()) photons_[place] = all.photon_sums(tree_.order[place]);
-        for (std::size_t band = 1; band <= units_.size(); ++band) {
-          const Totals& further = all.band(band);
-          set_power(place, band, further[tree_.order[place]].power);
-          if (!photons_.empty()) *photons_of(place, band) = further.photon_sums(tree_.order[place]);
-        }
+      [&](std::size_t place, std::size_t band) {
+        const Totals& all = totals().band(band);
+        const DiscTotals& sums = all[tree_.order[place]];
+        if (band == 0) sums_[place].hits = sums.hits;
+        set_power(place, band, sums.power);
+        if (!photons_.empty()) *photons_of(place, band) = all.photon_sums(tree_.order[place]);
       });
 }
 
@@ -152,16 +154,13 @@ void DiscResults::begin_photons(std::size_t first_ray) {
   const std::uint64_t block = photon_blocks(problem_, options_).of(problem_.photon(first_ray, first_photon_));
   if (block == before) return;
   add_counted_hits();
-  Totals& all = totals();
   for_each_place(
-      sums_.size(), [&](std::size_t place) { all.prefetch(tree_.order[place], before); },
-      [&](std::size_t place) {
-        all.fold(tree_.order[place], before, block, sums_[place], photons_of(place, 0));
-        for (std::size_t band = 1; band <= units_.size(); ++band) {
-          DiscTotals sums = sums_of(place, band);
-          all.band(band).fold(tree_.order[place], before, block, sums, photons_of(place, band));
-          set_power(place, band, sums.power);
-        }
+      sums_.size(), problem_.bands(),
+      [&](std::size_t place, std::size_t band) { totals().band(band).prefetch(tree_.order[place], before); },
+      [&](std::size_t place, std::size_t band) {
+        DiscTotals sums = sums_of(place, band);
+        totals().band(band).fold(tree_.order[place], before, block, sums, photons_of(place, band));
+        set_power(place, band, sums.power);
       });
   totals().begin_block(block);
 }
@@ -189,7 +188,7 @@ BlockSearch DiscResults::begin(const Frame& frame, const Block& rays) {
           .powers = rays.powers(),
           .unit = totals().unit(),
           .further = {.bands = units_.size(),
-                      .powers = problem_.further().from(first_ray).values.data(),
+                      .powers = rays.further_powers(),
                       .sums = further_.sums.data(),
                       .photons = further_.photons.data(),
                       .places = sums_.size(),
@@ -377,40 +376,38 @@ void DiscResults::store_totals() {
   totals().add_rays(problem_);
   const bool own = options_.totals == nullptr;
   if (own) resize_results(sums_.size(), !photons_.empty(), outcome_, problem_.bands());
-  Totals& all = totals();
   std::pmr::vector<double> heaviest(options_.memory);
   for (std::size_t band = 0; band < problem_.bands(); ++band) {
-    const std::span<PhotonSums> photons(photons_of(0, band), photons_.size());
-    for (PhotonSums& one : photons) one.close(all.band(band).unit());
+    const std::span<PhotonSums> photons(photons_.empty() ? nullptr : photons_of(0, band), photons_.size());
+    for (PhotonSums& one : photons) one.close(totals().band(band).unit());
     heaviest.push_back(heaviest_photon(photons, problem_.largest_power(band)));
   }
-  // Where nothing hits, the results are 0 already.
+  // Where nothing hits, the outcome's results are 0 already.
   const auto is_zero = [&](std::size_t place) { return photons_.empty() && sums_[place].hits == 0; };
-  const auto fetch = [&](std::size_t place) {
+  const auto fetch = [&](std::size_t place, std::size_t band) {
     const std::uint32_t disc = tree_.order[place];
+    Totals& all = totals().band(band);
     if (!own) {
       hwy::Prefetch(&all[disc]);
       return;
     }
     if (is_zero(place)) return;
-    hwy::Prefetch(&problem_.discs()[disc].radius);
-    hwy::Prefetch(&outcome_.hits[disc]);
-    hwy::Prefetch(&outcome_.irradiance[disc]);
+    if (band == 0) hwy::Prefetch(&problem_.discs()[disc].radius);
+    if (band == 0) hwy::Prefetch(&outcome_.hits[disc]);
+    hwy::Prefetch(&outcome_.band(band).irradiance[disc]);
   };
-  for_each_place(sums_.size(), fetch, [&](std::size_t place) {
+  for_each_place(sums_.size(), problem_.bands(), fetch, [&](std::size_t place, std::size_t band) {
     const std::uint32_t disc = tree_.order[place];
     if (own && is_zero(place)) return;
-    if (own) outcome_.hits[disc] = sums_[place].hits;
-    for (std::size_t band = 0; band < heaviest.size(); ++band) {
-      const DiscTotals sums = sums_of(place, band);
-      const PhotonSums* const photons = photons_of(place, band);
-      Totals& to = all.band(band);
-      if (own) {
-        finish_disc(to, problem_.discs()[disc], disc, sums, photons, heaviest[band], outcome_.band(band));
-      } else {
-        to[disc] = sums;
-        if (photons != nullptr) to.photon_sums(disc) = *photons;
-      }
+    const DiscTotals sums = sums_of(place, band);
+    const PhotonSums* const photons = photons_of(place, band);
+    Totals& all = totals().band(band);
+    if (own) {
+      if (band == 0) outcome_.hits[disc] = sums.hits;
+      finish_disc(all, problem_.discs()[disc], disc, sums, photons, heaviest[band], outcome_.band(band));
+    } else {
+      all[disc] = sums;
+      if (photons != nullptr) all.photon_sums(disc) = *photons;
     }
   });
 }

@@ -8,6 +8,8 @@
 
 #include <bit>
 
+#include <hwy/cache_control.h>
+
 #include "block_search.hpp"
 #include "detp/sim/geometry/predicates.hpp"
 #include "detp/sim/search/sort_pairs.hpp"
@@ -87,7 +89,7 @@ HWY_INLINE FoundRays find_hits(const BlockSearch& block, std::uint32_t place, co
 
 /// Makes room for all of a disc's hits by so many rays, and a mark behind those of each class.
 HWY_INLINE std::uint32_t* room_for_hits(std::size_t rays, Worker& worker) {
-  const std::size_t room = rays + classes + padding;
+  const std::size_t room = rays + classes + 2 * padding;
   if (worker.found.size() < room) worker.found.resize(room);
   return worker.found.data();
 }
@@ -102,6 +104,14 @@ HWY_INLINE void add_bands(const FurtherSums& further, std::size_t band, const Fo
     for (std::size_t i = 0; i < count; ++i) sums[i] += powers[i];
   }
   std::copy_n(sums, count, row + band);
+}
+
+/// Asks for the rays' rows of powers, which may be anywhere in memory.
+HWY_NOINLINE inline void fetch_further_powers(const FurtherSums& further, const FoundRays& rays) {
+  constexpr std::size_t in_line = 8;
+  for (const std::uint32_t* ray = rays.first; ray != rays.last; ++ray)
+    for (std::size_t band = 0; band < further.bands; band += in_line)
+      hwy::Prefetch(further.powers + *ray * further.bands + band);
 }
 
 /// What add_powers does in band 0, in all others.
@@ -219,12 +229,26 @@ HWY_NOINLINE inline void add_photons(const BlockSearch& block, const double* pow
 
 template <bool segments, bool front_facing, int k>
 HWY_INLINE void sum_hits(const BlockSearch& block, const TreeNode& leaf, const RayList& rays, Worker& worker) {
-  std::uint32_t* const room = room_for_hits(rays.size, worker);
-  for (std::uint32_t place = leaf.first; place < leaf.first + leaf.count; ++place) {
-    const FoundRays found = find_hits<segments, front_facing, k>(block, place, rays, room, worker);
-    add_powers(block, place, k, found);
-    keep_pairs(block, place, found, worker);
+  std::uint32_t* const room = room_for_hits(2 * rays.size, worker);
+  if (HWY_LIKELY(block.further.bands == 0)) {
+    for (std::uint32_t place = leaf.first; place < leaf.first + leaf.count; ++place) {
+      const FoundRays found = find_hits<segments, front_facing, k>(block, place, rays, room, worker);
+      add_powers(block, place, k, found);
+      keep_pairs(block, place, found, worker);
+    }
+    return;
   }
+  // While the powers for one disc come from memory, the next is tested.
+  FoundRays before{};
+  for (std::uint32_t place = leaf.first; place < leaf.first + leaf.count; ++place) {
+    std::uint32_t* const start = before.first == room ? room + rays.size + padding : room;
+    const FoundRays found = find_hits<segments, front_facing, k>(block, place, rays, start, worker);
+    fetch_further_powers(block.further, found);
+    if (place > leaf.first) add_powers(block, place - 1, k, before);
+    keep_pairs(block, place, found, worker);
+    before = found;
+  }
+  add_powers(block, leaf.first + leaf.count - 1, k, before);
 }
 
 template <bool segments, bool counting_only, int k>

@@ -3,6 +3,13 @@
 #include <algorithm>
 
 namespace detp::sim::stream {
+namespace {
+
+/// Rows of powers of a block, in a small array of their own, stay in the second-level cache: with 32 768 rays and three bands, a search takes 1.1
+/// instead of 1.3 times as long as in one band. More doubles than this are better left where they are.
+constexpr std::size_t most_copied = std::size_t{1} << 18;
+
+}  // namespace
 
 void Block::load(const Problem& problem, const Frame& frame, std::size_t first, std::size_t size) {
   first_ = first;
@@ -17,6 +24,12 @@ void Block::load(const Problem& problem, const Frame& frame, std::size_t first, 
   if (!keep_powers_) return;
   powers_.resize(capacity_);
   for (std::size_t i = 0; i < rays.size(); ++i) powers_[i] = rays[i].power;
+  const std::size_t bands = problem.further().bands;
+  const double* const from = problem.further().values.data() + first * bands;
+  further_powers_ = from;
+  if (bands == 0 || bands * capacity_ > most_copied) return;
+  further_.assign(from, from + bands * rays.size());
+  further_powers_ = further_.data();
 }
 
 bool needs_powers(const Problem& problem, const RunOptions& options) {

@@ -27,7 +27,7 @@ class Block {
  public:
   /// `keep_powers`: searches will need the powers of single rays.
   explicit Block(std::pmr::memory_resource* memory, bool keep_powers)
-      : arena_(memory), powers_(memory), keep_powers_(keep_powers) {}
+      : arena_(memory), powers_(memory), further_(memory), keep_powers_(keep_powers) {}
 
   /// Loads up to `size` rays from number `first` on; none if there is no such ray.
   void load(const Problem& problem, const Frame& frame, std::size_t first, std::size_t size);
@@ -37,6 +37,8 @@ class Block {
   [[nodiscard]] const RayLists& lists() const { return lists_; }
   [[nodiscard]] const RayTraits& traits() const { return traits_; }
   /// Powers of the rays by their numbers in the block; null unless kept. (Rays are 64 bytes apart: too far for the cache.)
+  /// Of the same rays, a row for each.
+  [[nodiscard]] const double* further_powers() const { return further_powers_; }
   [[nodiscard]] const double* powers() const { return keep_powers_ ? powers_.data() : nullptr; }
 
  private:
@@ -44,6 +46,8 @@ class Block {
   RayLists lists_;
   RayTraits traits_;
   std::pmr::vector<double> powers_;
+  std::pmr::vector<double> further_;  ///< a copy of the rows of powers in further bands, if it is worth it
+  const double* further_powers_ = nullptr;
   bool keep_powers_;
   std::size_t first_ = 0;
   std::size_t size_ = 0;
