@@ -19,8 +19,8 @@ namespace {
 
 class CsvReader {
  public:
-  CsvReader(const std::string& path, const std::vector<TableColumn>& columns, std::stop_token stop)
-      : file_(path, std::move(stop)), lines_(file_), row_(path, columns) {}
+  CsvReader(const std::string& path, const ColumnChoice& choice, std::stop_token stop)
+      : file_(path, std::move(stop)), lines_(file_), choice_(choice), row_(path, choice(path, {})) {}
 
   std::size_t read(const TableSink& sink) {
     if (!next_line()) throw FileError(file_.path(), "is empty; expected a header " + known_names());
@@ -76,7 +76,12 @@ class CsvReader {
   }
 
   void read_header() {
+    std::vector<std::string> headings;
     std::string_view line = lines_.line();
+    for (std::size_t fields = fields_in(line); fields > 0; --fields)
+      headings.emplace_back(trimmed(cut_until(line, ",")));
+    row_ = TableRow(file_.path(), choice_(file_.path(), headings));
+    line = lines_.line();
     for (std::size_t fields = fields_in(line); fields > 0; --fields) {
       const std::string_view name = trimmed(cut_until(line, ","));
       const auto known = std::find_if(row_.columns().begin(), row_.columns().end(),
@@ -185,15 +190,15 @@ class CsvReader {
 
   InputFile file_;
   TextLines lines_;
+  const ColumnChoice& choice_;
   std::vector<std::size_t> order_;  ///< for each of the file's columns, its index in row_.columns()
   TableRow row_;
 };
 
 }  // namespace
 
-std::size_t read_csv(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
-                     std::stop_token stop) {
-  return CsvReader(path, columns, std::move(stop)).read(sink);
+std::size_t read_csv(const std::string& path, const ColumnChoice& choice, const TableSink& sink, std::stop_token stop) {
+  return CsvReader(path, choice, std::move(stop)).read(sink);
 }
 
 }  // namespace detp::sim

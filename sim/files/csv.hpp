@@ -11,7 +11,7 @@ namespace detp::sim {
 /// and comments are not. Numbers are read independently of the locale, including "inf" and "nan". Throws FileError with
 /// the line if the header is missing, or has an unknown or a repeated column; if a required column is missing; if a row
 /// has too few or too many fields; if a field is not a number; and as TextLines does.
-std::size_t read_csv(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
+std::size_t read_csv(const std::string& path, const ColumnChoice& choice, const TableSink& sink,
                      std::stop_token stop = {});
 
 }  // namespace detp::sim

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
+#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/kept_memory.hpp"
 #include "detp/sim/base/parallel.hpp"
 #include "detp/sim/geometry/directions.hpp"
@@ -19,6 +22,8 @@
 namespace detp::sim {
 namespace {
 
+constexpr std::string_view power_prefix = "power_";
+
 /// Brings the rays of each photon together.
 void sort_by_photon(RayFile& file) {
   Paths& paths = file.paths;
@@ -28,14 +33,15 @@ void sort_by_photon(RayFile& file) {
   file.order.resize(paths.rays.size());
   std::iota(file.order.begin(), file.order.end(), 0U);
   std::ranges::stable_sort(file.order, {}, [&](std::uint32_t ray) { return paths.photons[ray]; });
-  const auto sort = [&](auto& column) {
+  const auto sort = [&](auto& column, std::size_t each = 1) {
     auto sorted = column;
-    for (std::size_t i = 0; i < column.size(); ++i) sorted[i] = column[file.order[i]];
+    for (std::size_t i = 0; i < column.size(); ++i) sorted[i] = column[file.order[i / each] * each + i % each];
     column = std::move(sorted);
   };
   sort(paths.rays);
   sort(paths.landings);
   sort(paths.photons);
+  if (paths.further_bands > 0) sort(paths.further, paths.further_bands);
 }
 
 /// Numbers the photons 0, 1, 2, … in the order of the rays.
@@ -61,6 +67,8 @@ void read_rows(const TableFile& table, Paths& paths, const std::stop_token& stop
   make_room(paths.rays);
   if (table.given(ray_column::photon)) make_room(paths.photons);
   if (table.given(ray_column::landing)) make_room(paths.landings);
+  memory.reserve(paths.further, count * paths.further_bands);
+  paths.further.resize(count * paths.further_bands);
   constexpr std::uint64_t at_once = std::uint64_t{1} << 14;
   const auto read = [&](std::uint64_t first, std::uint64_t last) {
     std::uint64_t i = first;
@@ -70,6 +78,8 @@ void read_rows(const TableFile& table, Paths& paths, const std::stop_token& stop
           const Ray ray = paths.rays[i] = ray_in(row);
           if (!paths.photons.empty()) paths.photons[i] = photon_in(row);
           if (!paths.landings.empty()) paths.landings[i] = landing_in(row, ray);
+          for (std::size_t band = 0; band < paths.further_bands; ++band)
+            paths.further[i * paths.further_bands + band] = power_in(row, ray_column::further + band);
           ++i;
         },
         stop);
@@ -85,9 +95,12 @@ void read_rows(const TableFile& table, Paths& paths, const std::stop_token& stop
 
 }  // namespace
 
-RayFile read_rays(const std::string& path, std::stop_token stop) {
+RayFile read_rays(const std::string& path, std::stop_token stop, const std::vector<BandColumn>& bands) {
   RayFile file;
-  if (const auto table = TableFile::open(path, ray_columns())) {
+  const ColumnChoice columns = ray_columns(bands, file.bands);
+  const auto further_bands = [&] { return file.bands.empty() ? 0 : file.bands.size() - 1; };
+  if (const auto table = TableFile::open(path, columns)) {
+    file.paths.further_bands = further_bands();
     if (table->rows() == 0) throw FileError(path, "has no ray; at least one is needed");
     read_rows(*table, file.paths, stop);
     number_photons(file);
@@ -95,22 +108,30 @@ RayFile read_rays(const std::string& path, std::stop_token stop) {
   }
   KeptMemory memory(path);
   read_table(
-      path, ray_columns(),
+      path, columns,
       [&](const TableRow& row) {
         const Ray ray = ray_in(row);
         const std::size_t rows = row.expected_rows();
         memory.push(file.paths.rays, ray, rows);
         if (row.given(ray_column::photon)) memory.push(file.paths.photons, photon_in(row), rows);
         if (row.given(ray_column::landing)) memory.push(file.paths.landings, landing_in(row, ray), rows);
+        for (std::size_t column = ray_column::further; column < row.columns().size(); ++column)
+          memory.push(file.paths.further, power_in(row, column), rows * further_bands());
       },
       std::move(stop));
   if (file.paths.rays.empty()) throw FileError(path, "has no ray; at least one is needed");
+  file.paths.further_bands = further_bands();
   number_photons(file);
   return file;
 }
 
-void write_rays(const std::string& path, const PathRays& paths, const std::stop_token& stop) {
-  std::vector<std::string_view> columns{"ox", "oy", "oz", "dx", "dy", "dz", "length", "power"};
+void write_rays(const std::string& path, const PathRays& paths, const std::stop_token& stop,
+                const std::vector<std::string>& bands) {
+  std::vector<std::string> powers;
+  for (const std::string& band : bands) powers.push_back(std::string(power_prefix) + band);
+  if (powers.empty()) powers.emplace_back("power");
+  std::vector<std::string_view> columns{"ox", "oy", "oz", "dx", "dy", "dz", "length"};
+  columns.insert(columns.end(), powers.begin(), powers.end());
   if (!paths.photons.empty()) columns.emplace_back("photon");
   if (!paths.landings.empty()) columns.emplace_back("landing");
   TableWriter file(path, columns, paths.rays.size(), "rays", stop);
@@ -118,6 +139,7 @@ void write_rays(const std::string& path, const PathRays& paths, const std::stop_
   for (std::size_t i = 0; i < paths.rays.size(); ++i) {
     const auto& [o, d, length, power] = paths.rays[i];
     row.assign({o.x, o.y, o.z, d.x, d.y, d.z, length, power});
+    for (const double further : paths.further.of(i)) row.push_back(further);
     if (!paths.photons.empty()) row.push_back(static_cast<double>(paths.photons[i]));
     if (!paths.landings.empty()) row.push_back(paths.landings[i]);
     file.write(row);
@@ -129,31 +151,86 @@ namespace {
 
 constexpr double at_end = std::numeric_limits<double>::lowest();  ///< landing at the ray's end
 
+std::vector<BandColumn> bands_in(const std::vector<std::string>& headings) {
+  std::vector<BandColumn> bands;
+  for (const std::string& heading : headings)
+    if (heading.starts_with(power_prefix)) bands.push_back({heading.substr(power_prefix.size()), heading});
+  if (!bands.empty() && std::ranges::count(headings, "power") > 0)
+    throw std::invalid_argument(
+        fmt::format("has power and {}: a file has one power or powers with names", bands.front().column));
+  return bands;
+}
+
+void check(const std::vector<BandColumn>& bands) {
+  if (bands.size() > most_bands)
+    throw std::invalid_argument(fmt::format("{} bands are too many; the maximum is {}", bands.size(), most_bands));
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    const auto known = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '_';
+    };
+    const std::string& name = bands[i].name;
+    if (name.empty() || name.size() > 64 || !std::ranges::all_of(name, known))
+      throw std::invalid_argument(fmt::format(
+          "a band's name has 1 to 64 letters, digits, dots, minuses and underscores (got {})", detp::quoted(name)));
+    for (std::size_t j = 0; j < i; ++j)
+      if (bands[j].name == name || bands[j].column == bands[i].column)
+        throw std::invalid_argument(fmt::format("band {} and band {} have the same {}", j + 1, i + 1,
+                                                bands[j].name == name ? "name" : "column"));
+  }
+}
+
 }  // namespace
 
-const std::vector<TableColumn>& ray_columns() {
-  static const std::vector<TableColumn> columns{{"ox", {}, {}},
-                                                {"oy", {}, {}},
-                                                {"oz", {}, {}},
-                                                {"dx", {}, {}},
-                                                {"dy", {}, {}},
-                                                {"dz", {}, {}},
-                                                {"length", unbounded, unbounded},
-                                                {"power", 1.0, {}},
-                                                {"photon", 0.0, {}},
-                                                {"landing", at_end, at_end}};
-  return columns;
+ColumnChoice ray_columns(const std::vector<BandColumn>& asked, std::vector<BandColumn>& found) {
+  return std::function([asked, &found](const std::vector<std::string>& headings) {
+    found = asked.empty() ? bands_in(headings) : asked;
+    check(found);
+    std::vector<TableColumn> columns{{"ox", {}, {}},
+                                     {"oy", {}, {}},
+                                     {"oz", {}, {}},
+                                     {"dx", {}, {}},
+                                     {"dy", {}, {}},
+                                     {"dz", {}, {}},
+                                     {"length", unbounded, unbounded},
+                                     {"power", 1.0, {}},
+                                     {"photon", 0.0, {}},
+                                     {"landing", at_end, at_end}};
+    if (!found.empty()) columns[ray_column::power] = {found.front().column, {}, {}};
+    for (std::size_t band = 1; band < found.size(); ++band) columns.push_back({found[band].column, {}, {}});
+    return columns;
+  });
+}
+
+std::vector<BandColumn> parse_bands(std::string_view text) {
+  std::vector<BandColumn> bands;
+  for (std::size_t end = 0; end != std::string_view::npos;
+       text.remove_prefix(end == std::string_view::npos ? 0 : end + 1)) {
+    end = text.find(',');
+    const std::string_view one = text.substr(0, end);
+    const std::size_t equals = one.find('=');
+    if (equals == std::string_view::npos || equals + 1 == one.size())
+      throw std::invalid_argument(
+          fmt::format("bands must be NAME=COLUMN, as in r=red,g=green (got {})", detp::quoted(one)));
+    bands.push_back({std::string(one.substr(0, equals)), std::string(one.substr(equals + 1))});
+  }
+  check(bands);
+  return bands;
 }
 
 Ray ray_in(const TableRow& row) {
   const Ray ray{.origin = row.finite_vector(ray_column::ox),
                 .direction = unit_or_zero(row.finite_vector(ray_column::dx)),
                 .length = row[ray_column::length],
-                .power = row.finite(ray_column::power)};
+                .power = power_in(row, ray_column::power)};
   if (ray.direction == glm::dvec3{0.0}) row.fail("the direction is zero; it needs a length");
   if (!(ray.length > 0)) row.fail(fmt::format("length must be > 0, or inf for a line (got {})", ray.length));
-  if (ray.power < 0) row.fail(fmt::format("power must be >= 0 and finite (got {})", ray.power));
   return ray;
+}
+
+double power_in(const TableRow& row, std::size_t column) {
+  const double power = row.finite(column);
+  if (power < 0) row.fail(fmt::format("{} must be >= 0 and finite (got {})", row.columns()[column].name, power));
+  return power;
 }
 
 std::uint64_t photon_in(const TableRow& row) {

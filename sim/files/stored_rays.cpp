@@ -30,11 +30,13 @@ void require_no_stop(const std::stop_token& stop, const std::string& path) {
 
 }  // namespace
 
-std::unique_ptr<const StoredRays> StoredRays::open(const std::string& path, const std::stop_token& stop, Ranks* ranks) {
-  auto file = TableFile::open(path, ray_columns());
+std::unique_ptr<const StoredRays> StoredRays::open(const std::string& path, const std::stop_token& stop, Ranks* ranks,
+                                                   const std::vector<BandColumn>& bands) {
+  std::vector<BandColumn> found;
+  auto file = TableFile::open(path, ray_columns(bands, found));
   if (!file) return nullptr;
   if (file->rows() == 0) throw FileError(path, "has no ray; at least one is needed");
-  std::unique_ptr<StoredRays> rays(new StoredRays(std::move(*file)));
+  std::unique_ptr<StoredRays> rays(new StoredRays(std::move(*file), std::move(found)));
   if (!rays->look_through(stop, ranks)) return nullptr;
   return rays;
 }
@@ -53,6 +55,8 @@ bool StoredRays::look_through(const std::stop_token& stop, Ranks* ranks) {
       file_.read(first, std::min(size(), first + rays_in_chunk), [&](const TableRow& row) {
         const Ray ray = ray_in(row);
         static_cast<void>(landing_in(row, ray));
+        for (std::size_t band = 1; band < bands(); ++band)
+          static_cast<void>(power_in(row, ray_column::further + band - 1));
         chunk.origins.include(ray.origin);
         const std::uint64_t photon = photon_in(row);
         if (!std::exchange(has_one, true)) chunk.first_photon = chunk.last_photon = photon;
@@ -122,21 +126,33 @@ std::uint64_t StoredRays::block_end(std::uint64_t first, std::uint64_t most, con
   return begin > first ? begin : first_ray_of(cut + 1);
 }
 
-void StoredRays::read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const {
+template <class Visit>
+void StoredRays::for_each_row(std::uint64_t first, std::size_t count, const std::stop_token& stop,
+                              const Visit& visit) const {
   constexpr std::size_t at_once = 1 << 12;
-  sim::parallel_for(std::size_t{0}, (block.size() + at_once - 1) / at_once, [&](std::size_t part) {
+  sim::parallel_for(std::size_t{0}, (count + at_once - 1) / at_once, [&](std::size_t part) {
     require_no_stop(stop, file_.path());
     std::size_t next = part * at_once;
-    const std::size_t last = std::min(block.size(), next + at_once);
-    file_.read(first + next, first + last, [&](const TableRow& row) { block[next++] = ray_in(row); });
+    const std::size_t last = std::min(count, next + at_once);
+    file_.read(first + next, first + last, [&](const TableRow& row) { visit(next++, row); });
   });
+}
+
+void StoredRays::read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const {
+  for_each_row(first, block.size(), stop, [&](std::size_t i, const TableRow& row) { block[i] = ray_in(row); });
 }
 
 void StoredRays::read_all(std::uint64_t first, std::span<Ray> block, BesideRays& beside,
                           const std::stop_token& stop) const {
   std::vector<std::uint64_t>& photons = beside.photons;
   photons.clear();
-  read(first, block, stop);
+  const std::size_t further = bands() - 1;
+  beside.further.resize(block.size() * further);
+  for_each_row(first, block.size(), stop, [&](std::size_t i, const TableRow& row) {
+    block[i] = ray_in(row);
+    for (std::size_t band = 0; band < further; ++band)
+      beside.further[i * further + band] = power_in(row, ray_column::further + band);
+  });
   if (!numbered() || block.empty()) return;
   photons.resize(block.size());
   for_each_photon(first, first + block.size(),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "csv.hpp"
@@ -14,11 +15,14 @@
 namespace detp::sim {
 namespace {
 
-std::size_t read_ply_table(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
+std::size_t read_ply_table(const std::string& path, const ColumnChoice& choice, const TableSink& sink,
                            std::stop_token stop) {
   PlyFile file(path, std::move(stop));
   const PlyElement* vertex = file.element("vertex");
   if (vertex == nullptr) throw FileError(path, "has no element vertex");
+  std::vector<std::string> names;
+  for (const PlyProperty& property : vertex->properties) names.push_back(property.name);
+  const std::vector<TableColumn> columns = choice(path, names);
   TableRow row(path, columns);
   PlyRequest request{.element = "vertex", .properties = {}, .on_row = {}};
   std::vector<std::size_t> given;
@@ -43,6 +47,15 @@ std::size_t read_ply_table(const std::string& path, const std::vector<TableColum
 
 }  // namespace
 
+std::vector<TableColumn> ColumnChoice::operator()(const std::string& path,
+                                                  const std::vector<std::string>& headings) const {
+  try {
+    return choose_(headings);
+  } catch (const std::invalid_argument& error) {
+    throw FileError(path, error.what());
+  }
+}
+
 void TableRow::fail(const std::string& what) const {
   if (rows_ > 0) throw FileError(path_, fmt::format("{} {} of {}: {}", what_, number_, rows_, what));
   throw FileError(path_, number_, what);
@@ -58,14 +71,14 @@ glm::dvec3 TableRow::finite_vector(std::size_t first_column) const {
   return {finite(first_column), finite(first_column + 1), finite(first_column + 2)};
 }
 
-std::size_t read_table(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
+std::size_t read_table(const std::string& path, const ColumnChoice& choice, const TableSink& sink,
                        std::stop_token stop) {
-  if (const auto table = TableFile::open(path, columns)) {
+  if (const auto table = TableFile::open(path, choice)) {
     table->read(0, table->rows(), sink, stop);
     return table->rows();
   }
-  return has_ending(path, ".ply") ? read_ply_table(path, columns, sink, std::move(stop))
-                                  : read_csv(path, columns, sink, std::move(stop));
+  return has_ending(path, ".ply") ? read_ply_table(path, choice, sink, std::move(stop))
+                                  : read_csv(path, choice, sink, std::move(stop));
 }
 
 }  // namespace detp::sim

@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 /// Files of numbers in named columns: CSV, the vertices of a PLY file, or an array of NumPy.
@@ -14,17 +15,33 @@ namespace detp::sim {
 
 /// A column that a file may have or must have.
 struct TableColumn {
-  std::string_view name;
+  std::string name;
   std::optional<double> absent;  ///< value if the file has no such column; none: the column is required
   std::optional<double> empty;   ///< value of an empty field in a CSV file; none: no field may be empty
   std::string_view remedy = {};  ///< ends the message about a missing column, such as ", and none is given"
 };
 
+/// The columns to read from a file: always the same, or those that a function chooses when it knows the file's headings (none: columns
+/// have no names). The function may throw std::invalid_argument, whose text becomes that of a FileError.
+class ColumnChoice {
+ public:
+  ColumnChoice(std::vector<TableColumn> columns)
+      : choose_([columns = std::move(columns)](const std::vector<std::string>&) { return columns; }) {}
+  ColumnChoice(std::function<std::vector<TableColumn>(const std::vector<std::string>& headings)> choose)
+      : choose_(std::move(choose)) {}
+
+  [[nodiscard]] std::vector<TableColumn> operator()(const std::string& path,
+                                                    const std::vector<std::string>& headings) const;
+
+ private:
+  std::function<std::vector<TableColumn>(const std::vector<std::string>&)> choose_;
+};
+
 /// One row of a table.
 class TableRow {
  public:
-  TableRow(const std::string& path, const std::vector<TableColumn>& columns)
-      : path_(path), columns_(columns), values_(columns.size()), given_(columns.size(), true) {}
+  TableRow(std::string path, std::vector<TableColumn> columns)
+      : path_(std::move(path)), columns_(std::move(columns)), values_(columns_.size()), given_(columns_.size(), true) {}
 
   [[nodiscard]] const std::vector<TableColumn>& columns() const { return columns_; }
   [[nodiscard]] double operator[](std::size_t column) const { return values_[column]; }
@@ -60,8 +77,8 @@ class TableRow {
   [[nodiscard]] glm::dvec3 finite_vector(std::size_t first_column) const;
 
  private:
-  const std::string& path_;
-  const std::vector<TableColumn>& columns_;
+  std::string path_;
+  std::vector<TableColumn> columns_;
   std::vector<double> values_;
   std::vector<bool> given_;
   std::size_t number_ = 0;
@@ -76,7 +93,7 @@ using TableSink = std::function<void(const TableRow&)>;
 /// Reads a table row by row, in bounded memory: PLY if the path ends in .ply, an array of NumPy if it ends in .npy (upper or lower case), else
 /// CSV. Returns the number of rows. Throws FileError with the line (CSV), the vertex (PLY) or the row if the file is unreadable or malformed,
 /// or a column is missing; see read_csv and PlyFile. Throws Stopped within 0.1 s of a stop request.
-std::size_t read_table(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
+std::size_t read_table(const std::string& path, const ColumnChoice& choice, const TableSink& sink,
                        std::stop_token stop = {});
 
 }  // namespace detp::sim

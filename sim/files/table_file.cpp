@@ -40,7 +40,7 @@ bool has_list(const PlyElement& element) {
 
 }  // namespace
 
-std::optional<TableFile> TableFile::open(const std::string& path, const std::vector<TableColumn>& columns) {
+std::optional<TableFile> TableFile::open(const std::string& path, const ColumnChoice& choice) {
   const bool is_npy = has_ending(path, ".npy");
   if (!is_npy && !has_ending(path, ".ply")) return std::nullopt;
   std::error_code unknown;
@@ -49,15 +49,15 @@ std::optional<TableFile> TableFile::open(const std::string& path, const std::vec
     if (!is_npy) return std::nullopt;
   }
   InputFile file(path);
-  TableFile table(path, columns);
+  TableFile table(path);
   if (is_npy)
-    table.take_npy(file);
-  else if (!table.take_ply(file))
+    table.take_npy(file, choice);
+  else if (!table.take_ply(file, choice))
     return std::nullopt;
   return table;
 }
 
-bool TableFile::take_ply(InputFile& file) {
+bool TableFile::take_ply(InputFile& file, const ColumnChoice& choice) {
   const PlyHeader header = read_ply_header(file);
   if (header.format == PlyFormat::ascii || !file.rest()) return false;
   const bool swapped = (header.format == PlyFormat::little_endian) != (std::endian::native == std::endian::little);
@@ -70,6 +70,9 @@ bool TableFile::take_ply(InputFile& file) {
   }
   rows_ = vertex->rows;
   row_size_ = size_of_row(*vertex);
+  std::vector<std::string> names;
+  for (const PlyProperty& property : vertex->properties) names.push_back(property.name);
+  columns_ = choice(path_, names);
   for (const TableColumn& column : columns_) {
     auto& place = places_.emplace_back();
     if (const auto property = vertex->property(column.name, false)) {
@@ -83,12 +86,16 @@ bool TableFile::take_ply(InputFile& file) {
   return true;
 }
 
-void TableFile::take_npy(InputFile& file) {
+void TableFile::take_npy(InputFile& file, const ColumnChoice& choice) {
   const NpyHeader header = read_npy_header(file);
   rows_ = header.rows;
   row_size_ = header.row_size;
   row_name_ = "row";
   const bool plain = std::ranges::all_of(header.fields, [](const NpyField& one) { return one.name.empty(); });
+  std::vector<std::string> names;
+  if (!plain)
+    for (const NpyField& field : header.fields) names.push_back(field.name);
+  columns_ = choice(path_, names);
   if (plain && header.fields.size() > columns_.size())
     throw FileError(path_, fmt::format("has {} columns; known are {}", header.fields.size(), names_of(columns_)));
   for (std::size_t i = 0; i < columns_.size(); ++i) {

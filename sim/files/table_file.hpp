@@ -16,7 +16,7 @@ class TableFile {
  public:
   /// Null for any other file. Throws FileError as read_table does, if the file is shorter than its header says, and for an array that is no
   /// regular file.
-  [[nodiscard]] static std::optional<TableFile> open(const std::string& path, const std::vector<TableColumn>& columns);
+  [[nodiscard]] static std::optional<TableFile> open(const std::string& path, const ColumnChoice& choice);
 
   ~TableFile();
   TableFile(TableFile&& other) noexcept;
@@ -24,6 +24,8 @@ class TableFile {
 
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
+  /// Columns that were chosen, in the file or not.
+  [[nodiscard]] std::size_t columns() const { return columns_.size(); }
   /// The file has the column.
   [[nodiscard]] bool given(std::size_t column) const { return places_[column].has_value(); }
 
@@ -38,11 +40,10 @@ class TableFile {
     bool swapped = false;
   };
 
-  TableFile(std::string path, std::vector<TableColumn> columns)
-      : path_(std::move(path)), columns_(std::move(columns)) {}
+  explicit TableFile(std::string path) : path_(std::move(path)) {}
   /// Takes the places of the columns. False if the vertices have lists, or are text.
-  bool take_ply(InputFile& file);
-  void take_npy(InputFile& file);
+  bool take_ply(InputFile& file, const ColumnChoice& choice);
+  void take_npy(InputFile& file, const ColumnChoice& choice);
   void open_rows(std::uint64_t rest, std::uint64_t before, std::string_view rows);
 
   std::string path_;

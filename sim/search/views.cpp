@@ -58,6 +58,16 @@ void read_rays(const RaysView& view, std::size_t first, std::span<Ray> rays, int
   });
 }
 
+void read_further_powers(const RaysView& view, std::size_t first, std::size_t rays, std::vector<double>& powers) {
+  const std::size_t bands = view.further_powers.size();
+  powers.resize(rays * bands);
+  for (std::size_t band = 0; band < bands; ++band) {
+    const NumbersView& from = view.further_powers[band];
+    require_array("powers", from);
+    for (std::size_t i = 0; i < rays; ++i) powers[i * bands + band] = from[first + i];
+  }
+}
+
 Ray read_ray(const RaysView& view, std::size_t number) {
   Ray ray;
   read_rays(view, number, {&ray, 1});

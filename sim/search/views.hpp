@@ -91,8 +91,19 @@ struct RaysView {
   VectorsView directions;
   NumbersView lengths = unbounded;
   NumbersView powers = 1.0;
-  std::span<const std::uint64_t> photons = {};  ///< as PathRays::photons; not copied
-  std::span<const double> landings = {};        ///< as PathRays::landings; not copied
+  std::span<const std::uint64_t> photons = {};   ///< as PathRays::photons; not copied
+  std::span<const double> landings = {};         ///< as PathRays::landings; not copied
+  std::vector<NumbersView> further_powers = {};  ///< in bands 1, 2, …; band 0 has `powers`
+
+  /// Powers in bands from an array of rows: a row of `bands` numbers for each ray, `stride` bytes after the one before (0: without gaps).
+  template <class T>
+  void set_powers(const T* rows, std::size_t bands, std::size_t stride = 0) {
+    if (stride == 0) stride = bands * sizeof(T);
+    powers = NumbersView(rows, stride);
+    further_powers.clear();
+    for (std::size_t band = 1; band < bands; ++band)
+      further_powers.emplace_back(rows == nullptr ? nullptr : rows + band, stride);
+  }
 };
 
 /// Discs: see Disc for the meaning of each field. Normals may have any length except 0.
@@ -108,7 +119,10 @@ struct DiscsView {
 /// null, or if threads are out of range.
 void read_rays(const RaysView& view, std::size_t first, std::span<Ray> rays, int threads = 1);
 
-/// The same for one ray.
+/// Copies to `powers` the further powers of the rays first … first + rays - 1: a row for each (FurtherPowers). Throws as read_rays.
+void read_further_powers(const RaysView& view, std::size_t first, std::size_t rays, std::vector<double>& powers);
+
+/// One ray.
 [[nodiscard]] Ray read_ray(const RaysView& view, std::size_t number);
 
 /// `photons`, if any, has a number for each ray. The largest end of a piece of the rays that begins at ray `first`, has at most `most` rays, and does not split a photon; if

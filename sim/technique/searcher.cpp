@@ -49,16 +49,27 @@ const Outcome& Searcher::search(const PathRays& rays, SearchScratch& scratch, Ru
   return scratch.outcome;
 }
 
+PathRays Searcher::read(const RaysView& rays, std::size_t first, std::size_t count, SearchScratch& scratch,
+                        int threads) {
+  scratch.rays.resize(count);
+  read_rays(rays, first, scratch.rays, threads);
+  read_further_powers(rays, first, count, scratch.further);
+  PathRays some(scratch.rays);
+  some.further = {scratch.further, rays.further_powers.size()};
+  return some;
+}
+
 const Outcome& Searcher::search(const RaysView& rays, SearchScratch& scratch, const RunOptions& options) const {
   if (const std::size_t most = piece(options.engine); rays.count > most) {
     search_pieces(rays, most, scratch, options);
     return scratch.outcome;
   }
   Stopwatch watch;
-  scratch.rays.resize(rays.count);
-  read_rays(rays, 0, scratch.rays, options.threads);
+  PathRays all = read(rays, 0, rays.count, scratch, options.threads);
+  all.photons = rays.photons;  // checked by the search
+  all.landings = rays.landings;
   const double reading = watch.lap();
-  search(PathRays{scratch.rays, rays.photons, rays.landings}, scratch, options);
+  search(all, scratch, options);
   scratch.outcome.seconds.prepare += reading;
   return scratch.outcome;
 }
@@ -84,11 +95,11 @@ void Searcher::search_pieces(const RaysView& rays, std::size_t piece, SearchScra
     const std::size_t first = pieces.next();
     const std::size_t count = end_of_piece(rays, first, piece) - first;
     Stopwatch watch;
-    scratch.rays.resize(count);
-    read_rays(rays, first, scratch.rays, options.threads);
+    PathRays part = read(rays, first, count, scratch, options.threads);
     reading += watch.lap();
-    const auto part = [&](const auto& numbers) { return numbers.empty() ? numbers : numbers.subspan(first, count); };
-    pieces.add({scratch.rays, part(rays.photons), part(rays.landings)});
+    if (!rays.photons.empty()) part.photons = rays.photons.subspan(first, count);
+    if (!rays.landings.empty()) part.landings = rays.landings.subspan(first, count);
+    pieces.add(part);
   }
   pieces.finish();
   scratch.outcome.seconds.prepare += reading;

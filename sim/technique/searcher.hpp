@@ -19,7 +19,8 @@ namespace detp::sim {
 /// Memory for one search at a time, kept for the next search.
 struct SearchScratch {
   Scratch memory;
-  std::vector<Ray> rays;  ///< a piece of a view
+  std::vector<Ray> rays;        ///< a piece of a view
+  std::vector<double> further;  ///< its powers in further bands
   Outcome outcome;
 };
 
@@ -56,6 +57,8 @@ class Searcher {
   [[nodiscard]] const Built& built() const { return index_->built(); }
 
  private:
+  /// The rays first … first + count - 1 of a view, copied to the scratch.
+  static PathRays read(const RaysView& rays, std::size_t first, std::size_t count, SearchScratch& scratch, int threads);
   /// Number of rays of a view that are read at a time.
   [[nodiscard]] std::size_t piece(Engine engine) const;
   void search_pieces(const RaysView& rays, std::size_t piece, SearchScratch& scratch, RunOptions options) const;

@@ -70,6 +70,23 @@ class Arrays(unittest.TestCase):
         assert alone.standard_error is not None and paths.standard_error is not None
         self.assertFalse(np.array_equal(alone.standard_error, paths.standard_error))
 
+    def test_powers_in_bands_are_as_many_searches(self) -> None:
+        centres, normals = some_discs(300)
+        origins, directions = some_rays(2000)
+        plan = detp.plan(detp.Discs(centres, normals, 0.2), detp.Rays(origins, directions))
+        powers = np.random.default_rng(3).random((2000, 3)).astype(np.float32)
+        one_by_one = [plan.search(detp.Rays(origins, directions, powers=powers[:, band]), standard_error=True)
+                      for band in range(3)]
+        for name, layout in (("rows", powers), ("columns", np.asfortranarray(powers)), ("lists", powers.tolist())):
+            with self.subTest(name):
+                found = plan.search(detp.Rays(origins, directions, powers=layout), standard_error=True)
+                self.assertEqual(found.irradiance.shape, (300, 3))
+                for band, one in enumerate(one_by_one):
+                    np.testing.assert_array_equal(found.hits, one.hits)
+                    np.testing.assert_array_equal(found.irradiance[:, band], one.irradiance)
+                    assert found.standard_error is not None and one.standard_error is not None
+                    np.testing.assert_array_equal(found.standard_error[:, band], one.standard_error)
+
     def test_rays_are_not_copied(self) -> None:
         program = (
             "import detp, numpy as np, resource\n"
@@ -96,7 +113,9 @@ class Arrays(unittest.TestCase):
             (TypeError, "origins must be numbers", lambda: detp.Rays(origins.astype(complex), directions)),
             (ValueError, "lengths must have 10", lambda: detp.Rays(origins, directions, [1.0, 2.0])),
             (ValueError, "lengths must not be 0", lambda: detp.Rays(origins, directions, 0)),
-            (ValueError, "powers must be one number", lambda: detp.Rays(origins, directions, 1, origins)),
+            (ValueError, "powers must be one number", lambda: detp.Rays(origins, directions, 1, origins.reshape(1, 10, 3))),
+            (ValueError, "powers must have 10 elements", lambda: detp.Rays(origins, directions, 1, origins[:9])),
+            (ValueError, "powers must have one band", lambda: detp.Rays(origins, directions, 1, origins[:, :0])),
             (ValueError, "photons must be whole", lambda: detp.Rays(origins, directions, photons=np.zeros(10))),
             (ValueError, "photons must not be negative", lambda: detp.Rays(origins, directions, photons=-np.arange(10))),
             (ValueError, "normals must have 10", lambda: detp.Discs(origins, directions[1:], 1)),

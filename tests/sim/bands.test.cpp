@@ -12,6 +12,7 @@
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/search/irradiance.hpp"
+#include "detp/sim/technique/searcher.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "support/candidates.hpp"
 #include "support/same_bytes.hpp"
@@ -157,6 +158,43 @@ TEST_SUITE("bands") {
         const auto search = [&](const Paths& one) { return estimate(make_problem(one, discs), request, options); };
         support::check_same(search(with_powers(traced, powers)), found_band_by_band(traced, powers, search), options);
       }
+    }
+  }
+
+  TEST_CASE("The same from views: rows with gaps, columns, floats; all rays at once or in pieces") {
+    const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 60, 0.3, 3);
+    const Candidate box_tree{Technique::box_tree, BoxTreeParameters{8, 8}};
+    const Searcher searcher(discs, box_tree, 10.0);
+    SearchScratch scratch;
+    for (const std::size_t count : {std::size_t{3000}, (std::size_t{1} << 18) + 1000}) {
+      const std::vector<Ray> rays = support::uneven_lines(discs, count);
+      struct Spectrum {
+        double unused;
+        float power[3];
+      };
+      std::vector<Spectrum> rows(count);
+      std::vector<float> columns[3];
+      Paths paths{rays};
+      paths.further_bands = 2;
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto random = uniform4(9, Stream::tests, i);
+        for (int band = 0; band < 3; ++band) {
+          rows[i].power[band] = static_cast<float>(random[static_cast<std::size_t>(band)]);
+          columns[band].push_back(rows[i].power[band]);
+          if (band > 0) paths.further.push_back(rows[i].power[band]);
+        }
+        paths.rays[i].power = rows[i].power[0];
+      }
+      const RunOptions options{.standard_error = true};
+      const Outcome expected = run(make_problem(paths, discs), box_tree, options);
+      RaysView view{.count = count,
+                    .origins = {&rays[0].origin.x, sizeof(Ray)},
+                    .directions = {&rays[0].direction.x, sizeof(Ray)}};
+      view.set_powers(rows[0].power, 3, sizeof(Spectrum));
+      support::check_same(searcher.search(view, scratch, options), expected, options);
+      view.powers = columns[0].data();
+      view.further_powers = {columns[1].data(), columns[2].data()};
+      support::check_same(searcher.search(view, scratch, options), expected, options);
     }
   }
 

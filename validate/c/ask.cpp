@@ -86,6 +86,7 @@ detp_status detp_run_look(const detp_run* run, detp_run_view* view, detp_error* 
     ours.standard_error = array(one.standard_error);
     ours.upper_bound = array(one.upper_bound);
     ours.json = one.json.c_str();
+    ours.bands = one.hits.empty() ? 1 : one.irradiance.size() / one.hits.size();
     c::write_back(view, ours);
   });
 }

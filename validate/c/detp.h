@@ -74,13 +74,16 @@ typedef struct detp_numbers {
 
 /* Directions may have any length except 0. lengths: how far a ray reaches from its origin; with `data` null and of_all 0, or infinite: the
  * ray is a line, without ends both ways. powers: with `data` null and of_all 0: 1 for each ray. photons: the number of each ray's photon,
- * ascending, so that pieces of one path count as one in standard errors; null: each ray is a path of its own. */
+ * ascending, so that pieces of one path count as one in standard errors; null: each ray is a path of its own. A ray may carry powers in
+ * up to 64 bands: those of band 0 are `powers`, those of the next are further_powers[0] to further_powers[further_bands - 1]. */
 typedef struct detp_rays {
   size_t size;
   size_t count;
   detp_vectors origins, directions;
   detp_numbers lengths, powers;
   const uint64_t *photons;
+  const detp_numbers *further_powers;
+  size_t further_bands;
 } detp_rays;
 
 /* Normals may have any length except 0. radii > 0. */
@@ -177,7 +180,8 @@ typedef struct detp_search_options {
   void *user;
 } detp_search_options;
 
-/* What a search found. Arrays have an element for each disc, in the order of the plan's discs, or are null if they are not wanted. */
+/* What a search found. Arrays have an element for each disc, in the order of the plan's discs, or are null if they are not wanted. If the
+ * rays have several bands, `bands` says how many (0: 1), and all arrays but the hits have a row of so many numbers for each disc. */
 typedef struct detp_found {
   size_t size;
   uint64_t *hits;         /* rays that cross the disc */
@@ -192,6 +196,7 @@ typedef struct detp_found {
   double build_seconds;   /* for what depends on the rays */
   detp_counts counts;     /* 0, but for the hits, unless options.count */
   int stopped;    /* not 0: hits and irradiance are those of a part of the rays */
+  size_t bands;   /* to be set before the search */
 } detp_found;
 
 /* Finds every pair of a ray and a disc that it crosses, each once. The same rays and discs give the same bytes, with any technique and any
@@ -336,6 +341,7 @@ typedef struct detp_run_view {
   const double *standard_error; /* null unless it was asked for, or the run ended at an error */
   const double *upper_bound;    /* one-sided, 95 %; null likewise */
   const char *json;             /* what the command prints */
+  size_t bands;                 /* the last three arrays have a row of so many numbers for each disc */
 } detp_run_view;
 
 /* Does what `detp run WORDS...` does: makes discs and rays of a scene or of files, chooses technique and parameters, searches, and

@@ -22,6 +22,8 @@ class CallersRays {
     if (answer == 1) return std::nullopt;
     if (answer != 0) throw sim::Stopped("the function for the next rays stopped the search", {});
     const sim::RaysView view = c::view_of(&rays);
+    if (!view.further_powers.empty())
+      throw std::invalid_argument("the next rays: a search until an error takes rays with one power");
     require_non_negative("the next rays: number of photons", photons);
     if (view.count == 0 && photons == 0) throw std::invalid_argument("the next rays: there are none, and no photons");
     sim::require_memory("the next rays", static_cast<double>(view.count) * sizeof(sim::Ray));
@@ -52,6 +54,9 @@ detp_status detp_search(const detp_plan* plan, const detp_rays* rays, detp_scrat
     detp_found ours = c::known(found, "found");
     const detp_search_options own = options != nullptr ? c::known(options, "options") : detp_search_options{};
     const sim::RaysView view = c::view_of(rays);
+    if (std::max<std::size_t>(1, ours.bands) != 1 + view.further_powers.size())
+      throw std::invalid_argument("found.bands is " + std::to_string(ours.bands) + ", but the rays have " +
+                                  std::to_string(1 + view.further_powers.size()));
     c::Watch watch(own.progress, own.user, "searching");
     sim::RunOptions wanted{.count = own.count != 0,
                            .pairs = own.pairs != 0,

@@ -54,6 +54,13 @@ sim::RaysView view_of(const detp_rays* given_rays) {
                      .lengths = numbers_of(rays.lengths, "rays.lengths", sim::unbounded),
                      .powers = numbers_of(rays.powers, "rays.powers", 1)};
   if (rays.photons != nullptr) view.photons = {rays.photons, rays.count};
+  if (rays.further_bands >= sim::most_bands)
+    throw std::invalid_argument("rays: there are " + std::to_string(rays.further_bands) +
+                                " further bands; the maximum is " + std::to_string(sim::most_bands - 1));
+  if (rays.further_bands > 0) given(rays.further_powers, "rays.further_powers");
+  for (std::size_t band = 0; band < rays.further_bands; ++band)
+    view.further_powers.push_back(
+        numbers_of(rays.further_powers[band], "rays.further_powers[" + std::to_string(band) + "]", 1));
   return view;
 }
 

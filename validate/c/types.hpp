@@ -58,21 +58,21 @@ namespace detp::c {
 }
 
 template <class T>
-void copy(const std::vector<T>& values, T* to, std::size_t count) {
+void copy(const std::vector<T>& values, T* to, std::size_t count, std::size_t first = 0, std::size_t stride = 1) {
   if (to == nullptr) return;
-  if (values.size() == count)
-    std::copy(values.begin(), values.end(), to);
-  else
-    std::fill(to, to + count, std::numeric_limits<T>::quiet_NaN());  // of a stopped search, errors are not known
+  for (std::size_t i = 0; i < count; ++i)  // of a stopped search, errors are not known
+    to[first + i * stride] = values.size() == count ? values[i] : std::numeric_limits<T>::quiet_NaN();
 }
 
 /// Into the caller's arrays, those that are not null.
 template <class Found>
 void copy_results(const sim::Outcome& outcome, std::size_t discs, Found& found) {
   copy(outcome.hits, found.hits, discs);
-  copy(outcome.irradiance, found.irradiance, discs);
-  copy(outcome.standard_error, found.standard_error, discs);
-  copy(outcome.upper_bound, found.upper_bound, discs);
+  for (std::size_t band = 0; band < outcome.bands(); ++band) {
+    copy(outcome.band(band).irradiance, found.irradiance, discs, band, outcome.bands());
+    copy(outcome.band(band).standard_error, found.standard_error, discs, band, outcome.bands());
+    copy(outcome.band(band).upper_bound, found.upper_bound, discs, band, outcome.bands());
+  }
 }
 
 }  // namespace detp::c

@@ -52,11 +52,15 @@ std::vector<sim::Ray> shown_rays(const sim::RaysView& view, int threads) {
 void check_all(const sim::Problem& problem, const sim::RaysView& view, const PlanOptions& options) {
   constexpr std::size_t at_once = std::size_t{1} << 17;
   std::vector<sim::Ray> piece;
+  std::vector<double> further;
   for (std::size_t first = 0; first < view.count; first += piece.size()) {
     piece.resize(std::min(at_once, view.count - first));
     sim::read_rays(view, first, piece, options.threads);
     sim::Problem with_rays = problem;
-    sim::set_rays(with_rays, piece, options.threads, first);
+    sim::PathRays rays(piece);
+    sim::read_further_powers(view, first, piece.size(), further);
+    rays.further = {further, view.further_powers.size()};
+    sim::set_rays(with_rays, rays, options.threads, first);
   }
 }
 

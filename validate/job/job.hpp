@@ -13,6 +13,7 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/effects/observe.hpp"
+#include "detp/sim/files/ray_file.hpp"
 #include "detp/sim/geometry/disc_source.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/photon_source.hpp"
@@ -48,6 +49,8 @@ struct JobRequest {
   std::optional<std::string> scene;      ///< built-in name or mesh file
   std::optional<std::string> disc_file;  ///< instead of a scene's samples
   std::optional<std::string> ray_file;   ///< instead of photon paths or isotropic lines
+  std::vector<sim::BandColumn>
+      bands;  ///< of powers, and their columns in the ray file; default: power_NAME, if there are such columns
   /// default 100 000; of photon paths at least so many, to the end of the last photon's path
   std::optional<double> rays;
   std::optional<double> samples;        ///< default: one for each vertex of the scene; required without a scene

@@ -138,7 +138,7 @@ class JobMaker {
   /// Leaves discs in their file where they do not fit.
   void read_discs(const std::string& file, std::optional<double> radius) {
     auto stored = request_.store_discs && request_.stream ? sim::StoredDiscs::open(file, radius) : nullptr;
-    if (stored && request_.ray_file && !sim::TableFile::open(*request_.ray_file, sim::ray_columns())) stored.reset();
+    if (stored && request_.ray_file && !ray_table(*request_.ray_file)) stored.reset();
     if (!stored || !are_large(stored->size())) {
       job_.discs = sim::read_discs(file, radius, stop_);
       return;
@@ -208,18 +208,23 @@ class JobMaker {
         throw std::invalid_argument("the number of rays is for fields of rays; a ray file is taken whole");
       job_.field = sim::Field::photons;
       if (job_.stored_discs || (request_.stream && is_large(*request_.ray_file)))
-        job_.stream = sim::StoredRays::open(*request_.ray_file, stop_, request_.ranks);
-      if (job_.stream) return;
+        if (auto stored = sim::StoredRays::open(*request_.ray_file, stop_, request_.ranks, request_.bands)) {
+          name_bands(stored->band_columns());
+          job_.stream = std::move(stored);
+          return;
+        }
       if (job_.stored_discs)
         throw std::length_error(
             fmt::format("{} and its rays do not fit in memory; rays are read part by part only if their photons' "
                         "numbers do not fall",
                         *request_.disc_file));
-      sim::RayFile file = sim::read_rays(*request_.ray_file, stop_);
+      sim::RayFile file = sim::read_rays(*request_.ray_file, stop_, request_.bands);
+      name_bands(file.bands);
       keep(std::move(file.paths));
       job_.file_order = std::move(file.order);
       return;
     }
+    if (!request_.bands.empty()) throw std::invalid_argument("--bands names columns of --ray-file, and there is none");
     const double rays = request_.rays.value_or(rays_by_default);
     require_count("number of rays", rays, 1, 1e18);
     job_.field = request_.field.value_or(scene_ ? scene_->field : sim::Field::isotropic);
@@ -247,13 +252,19 @@ class JobMaker {
     keep(std::move(traced));
   }
 
+  [[nodiscard]] std::optional<sim::TableFile> ray_table(const std::string& path) const {
+    std::vector<sim::BandColumn> found;
+    return sim::TableFile::open(path, sim::ray_columns(request_.bands, found));
+  }
+
   /// Its rays are to stay in the file: ranks share them, or they are more than a block and take more than half of the memory.
   [[nodiscard]] bool is_large(const std::string& path) const {
-    const auto table = sim::TableFile::open(path, sim::ray_columns());
+    const auto table = ray_table(path);
     if (!table) return false;
     const auto rays = static_cast<double>(table->rows());
     if (are_shared(rays)) return true;
-    constexpr double bytes = sizeof(sim::Ray) + sizeof(std::uint64_t) + sizeof(double);
+    const double bytes = sizeof(sim::Ray) + sizeof(std::uint64_t) + sizeof(double) +
+                         sizeof(double) * static_cast<double>(table->columns() - sim::ray_column::further);
     return table->rows() > sim::default_block(job_.disc_count()) && bytes * rays > sim::memory_budget() / 2;
   }
 
@@ -262,7 +273,12 @@ class JobMaker {
     job_.photons = std::move(paths.photons);
     job_.landings = std::move(paths.landings);
     job_.triangles_met = std::move(paths.triangles);
+    job_.further = std::move(paths.further);
     job_.photon_count = paths.photon_count;
+  }
+
+  void name_bands(const std::vector<sim::BandColumn>& bands) {
+    for (const sim::BandColumn& band : bands) job_.bands.push_back(band.name);
   }
 
   void refuse_lights(std::string_view rays) const {

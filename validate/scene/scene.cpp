@@ -77,7 +77,7 @@ std::vector<double> tests_if_switched(const Job& job, const std::stop_token& sto
 std::optional<sim::Stopped> write_files(const SceneRequest& request, const Job& job, const std::stop_token& stop) {
   try {
     if (request.disc_file) sim::write_discs(*request.disc_file, job.discs, stop, job.vertices);
-    if (request.ray_file) sim::write_rays(*request.ray_file, job.paths(), stop);
+    if (request.ray_file) sim::write_rays(*request.ray_file, job.paths(), stop, job.bands);
   } catch (const sim::Stopped& stopped) {
     return stopped;
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "detp/sim/files/ray_file.hpp"
+#include "detp/sim/files/stored_rays.hpp"
 #include "support/scratch_file.hpp"
 
 using namespace detp;
@@ -224,6 +225,69 @@ TEST_SUITE("photons in files") {
       CHECK(back.paths.landings == landings);
       CHECK(back.order.empty());
     }
+  }
+
+  TEST_CASE("powers in bands are written and read back, as a whole and part by part, whatever the order of columns") {
+    Paths paths;
+    for (int i = 0; i < 3000; ++i) {
+      paths.rays.push_back({{0.1 * i, 1, 2}, {0, 0, 1}, unbounded, 1.0 / (i + 1)});
+      paths.photons.push_back(static_cast<std::uint64_t>(i / 3));
+      for (const int band : {1, 2}) paths.further.push_back(std::sqrt(band + i));
+    }
+    paths.further_bands = 2;
+    const ScratchFolder folder;
+    for (const char* name : {"rays.csv", "rays.ply", "rays.npy"}) {
+      CAPTURE(name);
+      write_rays(folder.path(name), paths, {}, {"nir", "420.5", "uv-b"});
+      const RayFile back = read_rays(folder.path(name));
+      CHECK(back.bands ==
+            std::vector<BandColumn>{{"nir", "power_nir"}, {"420.5", "power_420.5"}, {"uv-b", "power_uv-b"}});
+      REQUIRE(back.paths.further == paths.further);
+      CHECK(back.paths.rays[7].power == paths.rays[7].power);
+      const auto stored = StoredRays::open(folder.path(name));
+      CHECK((stored != nullptr) == (name != std::string("rays.csv")));
+      if (!stored) continue;
+      CHECK(stored->bands() == 3);
+      std::vector<Ray> block(1000);
+      BesideRays beside;
+      stored->read_all(1500, block, beside);
+      CHECK(std::equal(beside.further.begin(), beside.further.end(), paths.further.begin() + 3000));
+    }
+    const std::string mixed = folder.file(
+        "m.csv", "photon,ox,oy,oz,g,dx,dy,dz,r\n1,0,0,0,20,0,0,1,2\n0,0,0,0,10,0,0,1,1\n1,0,0,0,40,0,0,1,4\n");
+    const RayFile chosen = read_rays(mixed, {}, parse_bands("red=r,green=g"));
+    CHECK(chosen.paths.rays[0].power == 2);
+    CHECK(chosen.paths.further == std::vector<double>{20, 40, 10});  // the photon's rays are together
+    const RayFile turned = read_rays(mixed, {}, parse_bands("green=g,red=r"));
+    CHECK(turned.paths.rays[1].power == 40);
+    CHECK(turned.paths.further == std::vector<double>{2, 4, 1});
+  }
+
+  TEST_CASE("bands that contradict one another are refused by name") {
+    const std::string place = "ox,oy,oz,dx,dy,dz,";
+    const auto refused = [&](const std::string& columns, const std::string& row, const std::string& why) {
+      const std::string error = ray_error("r.csv", place + columns + "\n0,0,0,0,0,1," + row + "\n");
+      CHECK_MESSAGE(error.ends_with(why), error);
+    };
+    refused("power,power_r", "1,2", "r.csv: has power and power_r: a file has one power or powers with names");
+    refused("power_r,power_g", "1,-2", "r.csv:2: power_g must be >= 0 and finite (got -2)");
+    refused("power_r,power_g", "1,inf", "r.csv:2: power_g must be finite (got inf)");
+    refused("power_r,power_r", "1,2", "band 1 and band 2 have the same name");
+    refused("power_", "1", "a band's name has 1 to 64 letters, digits, dots, minuses and underscores (got \"\")");
+    std::string many = "power_0";
+    std::string ones = "1";
+    for (int band = 1; band < 65; ++band) {
+      many += ",power_" + std::to_string(band);
+      ones += ",1";
+    }
+    refused(many, ones, "65 bands are too many; the maximum is 64");
+    const ScratchFolder folder;
+    const std::string file = folder.file("r.csv", place + "red\n0,0,0,0,0,1,2\n");
+    CHECK(support::file_error_of([&] {
+            (void)read_rays(file, {}, parse_bands("g=green"));
+          }).find("unknown column \"red\"") != std::string::npos);
+    for (const char* wrong : {"", "r", "r=", "=red", "r=red,", "r=red,r=green", "r=red,g=red", "r d=red"})
+      CHECK_THROWS_AS((void)parse_bands(wrong), std::invalid_argument);
   }
 
   TEST_CASE("photons get the numbers 0, 1, 2, … in the order of the rays; without the column there are none") {

@@ -189,7 +189,9 @@ TEST_SUITE("identity") {
       if (++rows == 1000) later.request_stop();
     };
     CHECK_THROWS_AS(
-        read_table(pipe, {{"x", {}, {}}, {"y", {}, {}}, {"z", {}, {}}, {"nx", {}, {}}, {"ny", {}, {}}, {"nz", {}, {}}},
+        read_table(pipe,
+                   std::vector<TableColumn>{
+                       {"x", {}, {}}, {"y", {}, {}}, {"z", {}, {}}, {"nx", {}, {}}, {"ny", {}, {}}, {"nz", {}, {}}},
                    stop_after_1000, later.get_token()),
         Stopped);
     CHECK(rows < 1000 + (1 << 17) / 12 + 1);  // at most the rows that had been read before

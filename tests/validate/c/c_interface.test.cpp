@@ -84,6 +84,48 @@ TEST_SUITE("c interface") {
     detp_plan_free(&plan);  // does nothing
   }
 
+  TEST_CASE("powers in three bands bring the bytes of three searches, in rows") {
+    Data data(500, 5000, 1);
+    for (std::size_t i = 0; i < data.segments.size(); ++i) data.segments[i].power = static_cast<float>(i % 7);
+    const detp_discs discs = data.discs(0.2);
+    detp_rays rays = data.rays();
+    detp_plan* plan = nullptr;
+    detp_scratch* scratch = nullptr;
+    detp_error error{};
+    REQUIRE(detp_plan_create(&discs, &rays, nullptr, &plan, &error) == DETP_OK);
+    REQUIRE(detp_scratch_create(&scratch, &error) == DETP_OK);
+    std::vector<double> squares;
+    for (std::size_t i = 0; i < 5000; ++i) squares.push_back(0.1 * static_cast<double>(i * i % 11));
+    const detp_numbers own = rays.powers;
+    const detp_numbers bands[3]{own, {squares.data(), 0, DETP_DOUBLE, 0}, {nullptr, 0, DETP_DOUBLE, 2.5}};
+    std::vector<Arrays> each(3, Arrays(500));
+    for (std::size_t band = 0; band < 3; ++band) {
+      Arrays one(500);
+      rays.powers = bands[band];
+      REQUIRE(detp_search(plan, &rays, scratch, nullptr, &one.found, &error) == DETP_OK);
+      each[band].irradiance = one.irradiance;
+      each[band].upper_bound = one.upper_bound;
+    }
+    rays.powers = own;
+    rays.further_powers = bands + 1;
+    rays.further_bands = 2;
+    Arrays all(1500);
+    CHECK(detp_search(plan, &rays, scratch, nullptr, &all.found, &error) == DETP_INVALID);
+    CHECK(std::string(error.text) == "found.bands is 0, but the rays have 3");
+    all.found.bands = 3;
+    REQUIRE(detp_search(plan, &rays, scratch, nullptr, &all.found, &error) == DETP_OK);
+    for (std::size_t disc = 0; disc < 500; ++disc)
+      for (std::size_t band = 0; band < 3; ++band) {
+        REQUIRE(all.irradiance[3 * disc + band] == each[band].irradiance[disc]);
+        REQUIRE(all.upper_bound[3 * disc + band] == each[band].upper_bound[disc]);
+      }
+    rays.further_bands = 64;
+    CHECK(detp_search(plan, &rays, scratch, nullptr, &all.found, &error) == DETP_INVALID);
+    CHECK(std::string(error.text) == "rays: there are 64 further bands; the maximum is 63");
+    detp_plan_free(&plan);
+    detp_scratch_free(&scratch);
+  }
+
   TEST_CASE("what is wrong is refused with its name, and nothing is made") {
     const Data data(10, 20, 1);
     detp_discs discs = data.discs(0.5);

@@ -193,11 +193,13 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   std::optional<sim::Progress> stopped;
   bool not_reached = false;
   bool predicted = false;
+  std::vector<std::string> bands;
   std::shared_ptr<const validate::JobAndRun> kept;
   const auto prepare = [&] {
     const validate::JobRequest request = validate::job_request(candidates_of(options, common));
     auto job = std::make_shared<validate::Job>(validate::make_job(request, stop, rows.job(progress.report())));
     note_all(common, *job);
+    bands = job->bands;
     if (options.standard_error && request.ray_file && !job->numbered())
       note(common, "standard errors: the rays have no column photon, so each ray counts as a photon of its own");
     if (!is_short && common.answers()) inputs = to_json(*job, request);
@@ -231,8 +233,10 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   const std::vector<AnswerRow> answers = answer_all(problems, candidates, stop, prepare, answer);
   if (!common.answers()) return {};
   if (predicted) note_doubt(costs, common);
-  Result result = result_of(answers, expected, validate::united(workload_columns(), columns_of(validate::run_fields())),
-                            run_text_columns(common.screen()));
+  Columns columns = validate::united(workload_columns(), columns_of(validate::run_fields()));
+  for (const std::string& band : bands)
+    for (const char* of : {"mean_irradiance_", "mean_irradiance_error_"}) columns.push_back(of + band);
+  Result result = result_of(answers, expected, columns, run_text_columns(common.screen()));
   if (expected == 1) {
     result.text = text;
     result.stopped = stopped;

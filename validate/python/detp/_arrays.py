@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional, Union
+from typing import Any, List, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -58,6 +58,18 @@ def numbers(array: Numbers, name: str, view: Any, count: int) -> npt.NDArray[Any
     view.data = ffi.cast("void *", floats.ctypes.data)
     view.stride = floats.strides[0] if len(floats) > 1 else floats.itemsize
     return floats
+
+
+def bands(array: Numbers, name: str, count: int) -> List[Any]:
+    """The columns of an array of shape (n, k); anything else as it is."""
+    given = np.asarray(array)
+    if given.ndim != 2:
+        return [array]
+    if given.shape[1] == 0:
+        raise ValueError(f"{name} must have one band or more (got the shape {given.shape})")
+    _require_count(given, name, count)
+    floats = _floats(given, name)
+    return [floats[:, band] for band in range(given.shape[1])]
 
 
 def whole_numbers(array: Array, name: str, count: int) -> npt.NDArray[np.uint64]:

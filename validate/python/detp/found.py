@@ -13,6 +13,17 @@ from . import _show
 Floats = npt.NDArray[np.float64]
 
 
+def by_band(columns: Dict[str, Any]) -> Dict[str, Any]:
+    """A column for each band of arrays of shape (n, k), as irradiance_0."""
+    found: Dict[str, Any] = {}
+    for name, values in columns.items():
+        if np.ndim(values) == 2:
+            found.update({f"{name}_{band}": values[:, band] for band in range(values.shape[1])})
+        else:
+            found[name] = values
+    return found
+
+
 class _PerDisc:
     """Results with arrays of one element for each disc."""
 
@@ -28,7 +39,7 @@ class _PerDisc:
 
 @dataclass(frozen=True, repr=False)
 class Found(_PerDisc):
-    """What a search found. Arrays have an element for each disc."""
+    """What a search found. Arrays have an element for each disc; of rays with k bands, all but the hits have the shape (n, k)."""
 
     hits: npt.NDArray[np.uint64]  #: (n,) rays that cross the disc
     irradiance: Floats  #: (n,) their power over the disc's area
@@ -51,11 +62,11 @@ class Found(_PerDisc):
     def _columns(self) -> Dict[str, Any]:
         errors = {} if self.standard_error is None else {"standard_error": self.standard_error,
                                                          "upper_bound": self.upper_bound}
-        return {"hits": self.hits, "irradiance": self.irradiance, **errors}
+        return by_band({"hits": self.hits, "irradiance": self.irradiance, **errors})
 
     def _rows(self) -> List[Tuple[str, object]]:
         return [("discs", len(self.hits)), ("hits", self.total_hits), ("hits a disc", f"{self.hits.mean():.4g}"),
-                ("mean irradiance", f"{self.irradiance.mean():.4g}"), ("search", _show.seconds(self.seconds))]
+                ("mean irradiance", _show.means(self.irradiance)), ("search", _show.seconds(self.seconds))]
 
     def __repr__(self) -> str:
         return f"Found({self.total_hits} hits of {len(self.hits)} discs in {_show.seconds(self.seconds)})"

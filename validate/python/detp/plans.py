@@ -104,9 +104,11 @@ class Plan:
         """
         found = make("detp_found")
         hits = np.empty(self.discs, np.uint64)
-        irradiance = np.empty(self.discs)
+        shape = (self.discs,) if rays.bands == 1 else (self.discs, rays.bands)
+        found.bands = rays.bands
+        irradiance = np.empty(shape)
         found.hits, found.irradiance = pointer("uint64_t", hits), pointer("double", irradiance)
-        errors = np.empty((2, self.discs)) if standard_error else None
+        errors = np.empty((2, *shape)) if standard_error else None
         if errors is not None:
             found.standard_error, found.upper_bound = pointer("double", errors[0]), pointer("double", errors[1])
         options = make("detp_search_options")

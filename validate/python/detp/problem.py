@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any, List, Optional
 
-from ._arrays import Array, Numbers, numbers, pointer, vectors, whole_numbers
+from ._arrays import Array, Numbers, bands, numbers, pointer, vectors, whole_numbers
+from ._declarations import ffi
 from ._library import make
 
 
@@ -14,7 +15,7 @@ class Rays:
     :param origins: (n, 3), lengths.
     :param directions: (n, 3), of any length except 0.
     :param lengths: how far each ray reaches from its origin, (n,) or one number; without: lines without ends, both ways.
-    :param powers: (n,) or one number, in any unit; without: 1.
+    :param powers: (n,) or one number, in any unit; (n, k) for powers in k bands; without: 1.
     :param photons: (n,) whole numbers, ascending: the photon of each ray. Rays of one photon count as one in standard
         errors; without: each ray is a photon of its own.
 
@@ -31,12 +32,22 @@ class Rays:
             self._arrays.append(numbers(lengths, "lengths", view.lengths, count))
             _require_given("lengths", view.lengths)
         if powers is not None:
-            self._arrays.append(numbers(powers, "powers", view.powers, count))
+            first_band, *further = bands(powers, "powers", count)
+            self._arrays.append(numbers(first_band, "powers", view.powers, count))
             _require_given("powers", view.powers)
+            if further:
+                view.further_bands = len(further)
+                view.further_powers = many = ffi.new("detp_numbers[]", len(further))
+                self._arrays += [many, *(numbers(one, "powers", many[i], count) for i, one in enumerate(further))]
         if photons is not None:
             self._arrays.append(whole_numbers(photons, "photons", count))
             if count > 0:
                 view.photons = pointer("uint64_t", self._arrays[-1])
+
+    @property
+    def bands(self) -> int:
+        """Number of powers of each ray."""
+        return 1 + int(self._view.further_bands)
 
     def __len__(self) -> int:
         return int(self._view.count)

@@ -13,12 +13,12 @@ import numpy.typing as npt
 from . import _show
 from ._declarations import ffi
 from ._library import LongCall, Progress, call, lib, make, owned
-from .found import Floats, _PerDisc
+from .found import Floats, _PerDisc, by_band
 
 
 @dataclass(frozen=True, repr=False)
 class Run(_PerDisc):
-    """What a run found. Arrays have an element for each disc."""
+    """What a run found. Arrays have an element for each disc; with k bands, the last three have the shape (n, k)."""
 
     centres: Floats  #: (n, 3) where the discs are
     normals: Floats  #: (n, 3)
@@ -33,7 +33,7 @@ class Run(_PerDisc):
         places = {name: self.centres[:, axis] for axis, name in enumerate("xyz")}
         errors = {} if self.standard_error is None else {"standard_error": self.standard_error,
                                                          "upper_bound": self.upper_bound}
-        return {**places, "radius": self.radii, "hits": self.hits, "irradiance": self.irradiance, **errors}
+        return by_band({**places, "radius": self.radii, "hits": self.hits, "irradiance": self.irradiance, **errors})
 
     def _rows(self) -> List[Tuple[str, object]]:
         return [("technique", self.answer["technique"] or self.answer["estimator"]), ("discs", len(self.hits)),
@@ -73,11 +73,14 @@ def run(scene: Optional[Union[str, os.PathLike[str]]] = None, *, progress: Optio
     call(lib.detp_run_look, handle[0], view)
     count = int(view.discs)
 
+    def rows(pointer: Any) -> Any:
+        found = array(pointer, view.bands, np.float64)
+        return found if found is None or view.bands == 1 else found.reshape(count, view.bands)
+
     def array(pointer: Any, width: int, kind: Any) -> Any:
         return np.frombuffer(ffi.buffer(pointer, 8 * count * width), kind).copy() if pointer != ffi.NULL else None
 
     return Run(centres=array(view.centres, 3, np.float64).reshape(count, 3),
                normals=array(view.normals, 3, np.float64).reshape(count, 3), radii=array(view.radii, 1, np.float64),
-               hits=array(view.hits, 1, np.uint64), irradiance=array(view.irradiance, 1, np.float64),
-               standard_error=array(view.standard_error, 1, np.float64),
-               upper_bound=array(view.upper_bound, 1, np.float64), answer=json.loads(ffi.string(view.json).decode()))
+               hits=array(view.hits, 1, np.uint64), irradiance=rows(view.irradiance),
+               standard_error=rows(view.standard_error), upper_bound=rows(view.upper_bound), answer=json.loads(ffi.string(view.json).decode()))

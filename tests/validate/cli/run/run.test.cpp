@@ -10,6 +10,7 @@
 
 #include "support/attempts.hpp"
 #include "support/csv_answer.hpp"
+#include "support/figures.hpp"
 #include "support/run_support.hpp"
 
 namespace detp::support {
@@ -370,6 +371,51 @@ TEST_SUITE("end to end") {
     const Json file = result_of(words("run @cornell --samples 50 --technique grid --ray-file") + Arguments{pipe});
     CHECK(file.at("trace_seconds") == 0);
     CHECK(file.at("read_seconds").get<double>() >= 0.1);
+  }
+
+  TEST_CASE("powers in bands: results by name, those of a run of each band alone") {
+    const support::ScratchFolder folder;
+    const std::string discs = folder.file("d.csv", "x,y,z,nx,ny,nz,radius\n0,0,0,0,0,1,0.5\n5,0,0,0,0,1,0.5\n");
+    std::string rows[3];
+    for (int ray = 0; ray < 40; ++ray) {
+      const std::string place = fmt::format("{},0,1,0,0,-1,{}", ray < 30 ? 0.01 * ray : 5.1, ray / 2);
+      rows[0] += fmt::format("{},{},{}\n", place, 0.1 * ray, 3 + ray % 5);
+      rows[1] += fmt::format("{},{}\n", place, 0.1 * ray);
+      rows[2] += fmt::format("{},{}\n", place, 3 + ray % 5);
+    }
+    const std::string columns = "ox,oy,oz,dx,dy,dz,photon,";
+    const std::string both = folder.file("both.csv", columns + "power_r,power_g\n" + rows[0]);
+    const std::string alone[2]{folder.file("r.csv", columns + "power\n" + rows[1]),
+                               folder.file("g.csv", columns + "green\n" + rows[2])};
+    const auto run = [&](const std::string& rays, const std::string& more, const std::string& per_disc) {
+      return result_of(Arguments{"run", "--discs", discs, "--ray-file", rays, "--standard-error", "--per-disc",
+                                 folder.path(per_disc)} +
+                       words(more));
+    };
+    for (const char* estimator : {"disc", "variable-radius"}) {
+      const std::string by = std::string("--estimator ") + estimator;
+      const Json json = run(both, by, "both");
+      CHECK(json.at("bands") == Json{"r", "g"});
+      const Json red = run(alone[0], by, "red");
+      const Json green = run(alone[1], by + " --bands g=green", "green");
+      CHECK_FALSE(red.contains("bands"));
+      CHECK(json.at("mean_irradiance") ==
+            Json{{"r", red.at("mean_irradiance")}, {"g", green.at("mean_irradiance").at("g")}});
+      const auto lines = [&](const char* name) { return figures::split(content_of(folder.path(name)), '\n'); };
+      CHECK(lines("both")[0] ==
+            "disc,hits,irradiance_r,standard_error_r,upper_bound_r,standard_error_weak_r,irradiance_g,standard_error_g,"
+            "upper_bound_g,standard_error_weak_g");
+      for (std::size_t line = 1; line < 3; ++line) {
+        const std::string of_green = lines("green")[line];
+        CHECK(lines("both")[line] == lines("red")[line] + of_green.substr(of_green.find(',', of_green.find(',') + 1)));
+      }
+    }
+    const Finished table = detp(Arguments{"run", "--discs", discs, "--ray-file", both, "--format", "csv"});
+    CHECK(table.out.find(",mean_irradiance_r,") != std::string::npos);
+    CHECK(detp(Arguments{"run", "--discs", discs, "--ray-file", both, "--target-noise", "5%"})
+              .err.find("takes rays with one power; these have the bands r, g") != std::string::npos);
+    CHECK(detp(words("run @cornell --bands r=red")).err.find("--bands names columns of --ray-file") !=
+          std::string::npos);
   }
 
   TEST_CASE("the text names the rays by their field, whatever the effects are") {
