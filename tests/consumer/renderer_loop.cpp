@@ -7,7 +7,7 @@ struct Sample {  // as a renderer keeps them
   float position[3], normal[3];
 };
 struct Segment {
-  float origin[3], direction[3], length, power;
+  float origin[3], direction[3], length, power[3];  // red, green, blue
 };
 
 int main() {
@@ -17,13 +17,14 @@ int main() {
   const detp::sim::DiscsView discs{
       floor.size(), {floor[0].position, sizeof(Sample)}, {floor[0].normal, sizeof(Sample)}, 0.02};
   std::vector<Segment> photons(20'000);  // from a square lamp one unit above the floor
-  const detp::sim::RaysView rays{photons.size(),
-                                 {photons[0].origin, sizeof(Segment)},
-                                 {photons[0].direction, sizeof(Segment)},
-                                 {&photons[0].length, sizeof(Segment)},
-                                 {&photons[0].power, sizeof(Segment)}};
+  detp::sim::RaysView rays{photons.size(),
+                           {photons[0].origin, sizeof(Segment)},
+                           {photons[0].direction, sizeof(Segment)},
+                           {&photons[0].length, sizeof(Segment)}};
+  rays.set_powers(photons[0].power, 3, sizeof(Segment));  // one search finds the irradiance in all three
   const auto trace_photons = [&] {
-    for (Segment& s : photons) s = {{random(), random(), 1}, {random() - 0.5F, random() - 0.5F, -1}, 9, 1.0F / 20'000};
+    for (Segment& s : photons)
+      s = {{random(), random(), 1}, {random() - 0.5F, random() - 0.5F, -1}, 9, {6e-5F, 5e-5F, 3e-5F}};
   };
 
   // What an operation costs on this machine: as detp calibrate stored it, or measured now, roughly.
@@ -43,9 +44,12 @@ int main() {
     trace_photons();
     const detp::sim::Outcome& found =
         detp::validate::execute(plan, rays, scratch, {.count = false, .standard_error = true});
-    std::printf("radius %.3f, %s, predicted %.2g ms: %llu hits; irradiance of sample 0: %.3f +- %.3f\n", radius,
+    std::printf("radius %.3f, %s, predicted %.2g ms: %llu hits; irradiance of sample 0:", radius,
                 detp::title(plan.candidate()).c_str(), 1e3 * plan.predicted_seconds(),
-                static_cast<unsigned long long>(found.total_hits), found.irradiance[0], found.standard_error[0]);
+                static_cast<unsigned long long>(found.total_hits));
+    for (std::size_t band = 0; band < found.bands(); ++band)
+      std::printf(" %.3f +- %.3f", found.band(band).irradiance[0], found.band(band).standard_error[0]);
+    std::printf("\n");
     if (found.total_hits == 0) return 1;
   }
 }
