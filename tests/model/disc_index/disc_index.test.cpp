@@ -125,6 +125,20 @@ TEST_SUITE("identity") {
     }
   }
 
+  TEST_CASE("tests with mailboxes change steadily with the radius") {
+    const auto tests_at = [](double radius) {
+      Workload w = few_rays;
+      w.disc_radius = radius;
+      return octree_counts(w, {6}, {.mailboxing = true}).disc_tests;
+    };
+    for (double radius = 0.004; radius < 0.2; radius *= 1.01) {
+      CAPTURE(radius);
+      const double growth = tests_at(1.01 * radius) / tests_at(radius);
+      CHECK(growth > 1);
+      CHECK(growth < 1.03);
+    }
+  }
+
   TEST_CASE("octree_counts for all depths gives the counts of each depth") {
     const auto depths = octree_counts_by_depth(few_rays, {7});
     REQUIRE(depths.size() == 8);

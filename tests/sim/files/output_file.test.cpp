@@ -128,6 +128,10 @@ TEST_SUITE("known answer") {
     CHECK(content_of(folder.path("log")) == "before between after");
   }
 
+  TEST_CASE("a descriptor that is not open is reported") {
+    CHECK(write_error("/dev/fd/987654", "a") == "/dev/fd/987654: cannot be written: Bad file descriptor");
+  }
+
   TEST_CASE("a pipe is written directly, and require_writable does not open it") {
     const ScratchFolder folder;
     const std::string path = folder.path("pipe");

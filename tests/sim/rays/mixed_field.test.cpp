@@ -94,6 +94,15 @@ bool hits_agree(const FieldMixture& mixture, double scale = 1) {
 }  // namespace
 
 TEST_SUITE("statistical") {
+  TEST_CASE("segments from a point outside fill the cone to the sphere, up to its edge") {
+    const FieldMixture mixture{.sphere = the_ball, .shares = {0, 0, 1}, .point = {1, 7, 3}};
+    const double edge = std::sqrt(1 - std::pow(2.0 / 5, 2));
+    double least = 1;
+    for (const Ray& ray : rays_of(mixture, 20'000)) least = std::min(least, -ray.direction.y);
+    CHECK(least >= edge - 1e-14);
+    CHECK(1 - least > 0.999 * (1 - edge));
+  }
+
   TEST_CASE("each disc of each mixture is hit as often as the closed forms say") {
     const glm::dvec3 inside = the_ball.centre + glm::dvec3{0.3, 1.2, -0.5};
     const glm::dvec3 outside = the_ball.centre + glm::dvec3{0, 9, 2};

@@ -47,6 +47,9 @@ TEST_SUITE("known answer") {
     chart.points = {{.x = 0.62, .y = 1, .value = "a"}, {.x = 1.1, .y = 2, .value = "b"}};
     const std::string svg = chart_svg(chart);
     for (const char* part : {">0.6<", ">0.8<", ">1<"}) CHECK_MESSAGE(svg.find(part) != std::string::npos, part);
+    chart.points = {{.x = 1, .y = 1, .value = "a"}, {.x = 3, .y = 2, .value = "b"}};
+    const std::string halves = chart_svg(chart);
+    for (const char* part : {">1.5<", ">2<", ">2.5<"}) CHECK_MESSAGE(halves.find(part) != std::string::npos, part);
   }
 
   TEST_CASE("names take the place of numbers on an axis, the first above") {

@@ -192,6 +192,8 @@ TEST_SUITE("the samples in question") {
     CHECK(json["inputs"]["disc_radius"] == 0.05);
     CHECK(std::abs(json["answer"]["mean_bias"].get<double>()) < 0.02);
     const Json all = result_of("accuracy @furnace --estimators disc --effort quick --disc-radius 0.05");
+    const std::string fronts = "accuracy @furnace --estimators disc --effort quick --disc-radius 0.05 --front-facing";
+    CHECK(result_of(fronts)["answer"]["command"].get<std::string>().find(" --front-facing") != std::string::npos);
     CHECK(all["answer"]["bias_interval"][0].get<double>() > 0.02);
     CHECK(all["answer"]["mean_bias"].get<double>() < 0);
   }
