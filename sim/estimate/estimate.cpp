@@ -43,7 +43,7 @@ void refuse_options(const RunOptions& options, std::string_view estimator) {
 Outcome by_paths(const Problem& problem, const EstimateRequest& request, const RunOptions& options) {
   if (request.scene == nullptr) throw std::invalid_argument("gather needs a scene: its surfaces and lights");
   check_options(options, problem);
-  return run(problem, *prepare_gather(*request.scene, request.paths, request.seed, options), options);
+  return gather(problem, *request.scene, request.paths, request.seed, options);
 }
 
 Outcome by_surfaces(const Problem& problem, const EstimateRequest& request, const RunOptions& options) {

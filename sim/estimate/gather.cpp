@@ -39,6 +39,20 @@ void operator+=(PathSums& all, const PathSums& more) {
   all.lit += more.lit;
 }
 
+/// The scene as it is in one band.
+Scene in_band(const Scene& scene, int band) {
+  Scene one = scene;
+  one.rgb = false;
+  one.mesh.materials.take_band(band);
+  for (Light& light : one.lights)
+    if (kind_of(light) == LightKind::surface) light.flux = emitted_flux(one.mesh);
+  return one;
+}
+
+bool has_light(const Scene& scene) {
+  return std::ranges::any_of(scene.lights, [](const Light& light) { return light.flux > 0; });
+}
+
 class GatherIndex final : public Index {
  public:
   GatherIndex(const Scene& scene, std::uint64_t paths, std::uint64_t seed, const std::stop_token& stop)
@@ -105,6 +119,29 @@ class GatherIndex final : public Index {
 };
 
 }  // namespace
+
+Outcome gather(const Problem& problem, const Scene& scene, std::uint64_t paths, std::uint64_t seed,
+               const RunOptions& options) {
+  const auto in_scene = [&](const Scene& one) {
+    return run(problem, *prepare_gather(one, paths, seed, options), options);
+  };
+  if (!scene.rgb) return in_scene(scene);
+  Outcome all;
+  for (int band = 0; band < 3; ++band) {
+    Outcome found;
+    if (const Scene one = in_band(scene, band); has_light(one))
+      found = in_scene(one);
+    else
+      resize_results(problem.discs().size(), options.standard_error, found);
+    if (band == 0) {
+      all = std::move(found);
+      continue;
+    }
+    all.stopped = all.stopped || found.stopped;
+    all.further.push_back(std::move(found));
+  }
+  return all;
+}
 
 std::unique_ptr<Index> prepare_gather(const Scene& scene, std::uint64_t paths, std::uint64_t seed,
                                       const RunOptions& options) {

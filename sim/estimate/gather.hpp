@@ -24,4 +24,8 @@ inline constexpr std::uint64_t paths_by_default = 64;
 [[nodiscard]] std::unique_ptr<Index> prepare_gather(const Scene& scene, std::uint64_t paths, std::uint64_t seed,
                                                     const RunOptions& options);
 
+/// The same search; of a scene with colours (Scene::rgb) in three bands, one after the other. A band without light is 0.
+[[nodiscard]] Outcome gather(const Problem& problem, const Scene& scene, std::uint64_t paths, std::uint64_t seed,
+                             const RunOptions& options);
+
 }  // namespace detp::sim

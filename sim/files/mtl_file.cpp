@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <glm/common.hpp>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -29,6 +30,7 @@ constexpr double most_reflected = 0.98;
 struct Statement {
   std::string name;
   double diffuse = 0.5, specular = 0, emitted = 0, shininess = 1, index = 1;
+  glm::dvec3 diffuse_colour{0.5}, specular_colour{0.0}, emitted_colour{0.0}, filter{1.0};
   std::optional<double> opacity;       ///< d
   std::optional<double> transparency;  ///< Tr
   std::optional<int> model;
@@ -54,6 +56,30 @@ double opacity_of(const Statement& from, Noted& noted) {
   return from.opacity ? *from.opacity : 1 - from.transparency.value_or(0);
 }
 
+bool is_coloured(const Statement& from) {
+  const auto is_grey = [](const glm::dvec3& one) { return one.r == one.g && one.g == one.b; };
+  return !is_grey(from.diffuse_colour) || !is_grey(from.specular_colour) || !is_grey(from.emitted_colour) ||
+         from.filter != glm::dvec3(1.0);
+}
+
+/// The shares of `to` in each band. A colour is brighter or darker in it as it is than its luminance; no band reflects more than comes.
+Colours colours_of(const Statement& from, const Material& to) {
+  const auto tinted = [](double share, const glm::dvec3& colour, double luminance) {
+    return luminance > 0 ? share / luminance * colour : glm::dvec3(0.0);
+  };
+  Colours colours{tinted(to.diffuse, from.diffuse_colour, from.diffuse),
+                  tinted(to.specular, from.specular_colour, from.specular), to.glass * from.filter,
+                  from.emitted_colour};
+  for (int band = 0; band < 3; ++band) {
+    const double rest = 1 - to.glass;
+    const double sum = colours.diffuse[band] + colours.specular[band];
+    if (sum <= rest) continue;
+    colours.diffuse[band] *= rest / sum;
+    colours.specular[band] *= rest / sum;
+  }
+  return colours;
+}
+
 Material material_of(const Statement& from, Noted& noted) {
   Material to{.name = from.name, .diffuse = from.diffuse, .emitted = from.emitted};
   if (from.shininess >= 1 && !from.has_model(matt_models)) to.specular = from.specular;
@@ -73,6 +99,7 @@ Material material_of(const Statement& from, Noted& noted) {
   to.glass = glass;
   to.diffuse *= 1 - glass;
   to.specular *= 1 - glass;
+  if (is_coloured(from)) to.colours = colours_of(from, to);
   return to;
 }
 
@@ -129,11 +156,16 @@ class MtlReader {
       if (const std::string_view first = cut_word(words); first == "spectral" || first == "xyz")
         ++other_colours_;
       else if (keyword == "Kd")
-        to.diffuse = luminance();
+        to.diffuse = luminance(to.diffuse_colour = colour());
       else if (keyword == "Ks")
-        to.specular = luminance();
+        to.specular = luminance(to.specular_colour = colour());
       else
-        to.emitted = radiance();
+        to.emitted = radiance(to.emitted_colour = colour());
+    }
+    if (keyword == "Tf") {
+      std::string_view words = lines_.rest();
+      if (const std::string_view first = cut_word(words); first != "spectral" && first != "xyz")
+        to.filter = glm::min(colour(), glm::dvec3(1.0));
     }
     if (keyword == "Ns") to.shininess = number();
     if (keyword == "Ni") to.index = number();
@@ -147,19 +179,21 @@ class MtlReader {
   }
 
   /// One number is a grey.
-  [[nodiscard]] double luminance() const {
+  [[nodiscard]] glm::dvec3 colour() const {
     std::string_view words = lines_.rest();
-    std::array<double, 3> colour{};
-    colour[0] = checked(lines_.number(cut_word(words)));
-    colour[1] = colour[2] = colour[0];
-    for (std::size_t i = 1; i < 3 && !trimmed(words).empty(); ++i) colour[i] = checked(lines_.number(cut_word(words)));
+    glm::dvec3 colour(checked(lines_.number(cut_word(words))));
+    for (int i = 1; i < 3 && !trimmed(words).empty(); ++i) colour[i] = checked(lines_.number(cut_word(words)));
+    return colour;
+  }
+
+  [[nodiscard]] static double luminance(const glm::dvec3& colour) {
     if (colour[0] == colour[1] && colour[1] == colour[2]) return colour[0];  // without rounding: 1 stays 1
     const double sum = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
     return std::min(sum, std::numeric_limits<double>::max());  // rounding must not make it infinite
   }
 
-  [[nodiscard]] double radiance() const {
-    const double value = luminance();
+  [[nodiscard]] double radiance(const glm::dvec3& colour) const {
+    const double value = luminance(colour);
     if (std::fpclassify(value) == FP_SUBNORMAL)
       lines_.fail(fmt::format("must be 0 or at least {:.4g}, for the luminance of the three numbers (got {:.4g})",
                               std::numeric_limits<double>::min(), value));

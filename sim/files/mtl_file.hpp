@@ -12,7 +12,8 @@ namespace detp::sim {
 /// The file of that name in the folder of `path`; backslashes separate folders, too.
 [[nodiscard]] std::string beside(const std::string& path, std::string_view name);
 
-/// The materials of an MTL file. Colours become their luminance (Rec. 709: 0.2126 R + 0.7152 G + 0.0722 B).
+/// The materials of an MTL file. Colours become their luminance (Rec. 709: 0.2126 R + 0.7152 G + 0.0722 B); Material::colours keeps
+/// them, with the filter Tf of glass.
 ///
 /// Kd    diffuse share; Ke radiance; Ks specular share.
 /// Ns    shininess; below 1, or with illum 0 or 1, Ks is ignored; from 1000, or with illum 3 or 5, a mirror.

@@ -100,6 +100,7 @@ Scene built_in_scene(const SceneRequest& request, const std::stop_token& stop) {
   Scene scene;
   scene.name = request.name;
   scene.mesh = std::move(lit_mesh.mesh);
+  if (scene.rgb = request.rgb; scene.rgb) scene.mesh.materials.take_largest();
   scene.lights = std::move(lit_mesh.lights);
   if (request.lights.empty()) scene.known_irradiance = lit_mesh.known_irradiance;
   add_samples(scene, request, stop);
@@ -113,6 +114,7 @@ Scene mesh_scene(const SceneRequest& request, const std::stop_token& stop) {
   Scene scene;
   scene.name = request.name;
   scene.mesh = read_mesh(request.name, scene.notices, stop);
+  if (scene.rgb = request.rgb; scene.rgb) scene.mesh.materials.take_largest();
   add_samples(scene, request, stop);
   scene.box = box_of(scene);
   if (scene.box.low == scene.box.high) return scene;

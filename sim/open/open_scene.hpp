@@ -16,6 +16,7 @@ struct SceneRequest {
   std::uint64_t seed = 1;
   std::vector<LightKind> lights = {};  ///< none: the scene's own, or if it has none, an area light
   double crease = default_crease;      ///< degrees, for files without normals (vertices.hpp)
+  bool rgb = false;                    ///< in the colours of its materials (Scene::rgb)
   std::optional<Up> up = {};           ///< none: Y in built-in scenes, found by up_of in files
 };
 

@@ -114,7 +114,8 @@ Box starts(const DirectionalLight&, const Scene& scene) {
 struct EmittingTriangle {
   std::uint32_t number;
   glm::dvec3 corner, first, second;  ///< a corner, and the edges from it
-  double up_to;                      ///< sum of the fluxes of all emitting sides up to and including this one
+  bool back;
+  double up_to;  ///< sum of the fluxes of all emitting sides up to and including this one
 };
 
 std::vector<EmittingTriangle> emitting_triangles(const Mesh& mesh) {
@@ -129,7 +130,8 @@ std::vector<EmittingTriangle> emitting_triangles(const Mesh& mesh) {
       const glm::dvec3 first = mesh.positions[b] - mesh.positions[a];
       const glm::dvec3 second = mesh.positions[c] - mesh.positions[a];
       const double flux = 0.5 * std::numbers::pi * emitted * glm::length(glm::cross(first, second));
-      if (flux > 0) all.push_back({static_cast<std::uint32_t>(i), mesh.positions[a], first, second, sum += flux});
+      if (flux > 0)
+        all.push_back({static_cast<std::uint32_t>(i), mesh.positions[a], first, second, !front, sum += flux});
     }
   }
   return all;
@@ -153,7 +155,7 @@ Emitter emitter(const SurfaceLight&, const Scene& scene) {
     }
     return PhotonStart{found->corner + u * found->first + v * found->second,
                        cosine_direction(unit_or_zero(glm::cross(found->first, found->second)), random[2], random[3]),
-                       found->number};
+                       found->number, found->back};
   };
 }
 

@@ -14,6 +14,7 @@ struct PhotonStart {
   glm::dvec3 origin{0.0};
   glm::dvec3 direction{0.0, 0.0, 1.0};         ///< unit length
   std::optional<std::uint32_t> triangle = {};  ///< on which the origin lies
+  bool on_back = false;                        ///< of the triangle
 };
 
 /// Samples the photons of one light, all of the same power: the photon that four uniform numbers in [0, 1) determine.

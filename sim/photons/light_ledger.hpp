@@ -18,11 +18,27 @@ enum class PathEnd : std::uint8_t {
 };
 inline constexpr std::size_t path_ends = 4;
 
+/// Where the light of one band went, in the unit of LightLedger::power.
+struct BandLedger {
+  double emitted = 0;
+  double deposited = 0;  ///< on surfaces, added up landing by landing
+  double left = 0;       ///< the scene
+  double cut = 0;
+
+  void operator+=(const BandLedger& other) {
+    emitted += other.emitted;
+    deposited += other.deposited;
+    left += other.left;
+    cut += other.cut;
+  }
+};
+
 /// Where the light of all photons went.
 struct LightLedger {
   std::array<std::uint64_t, path_ends> photons = {};  ///< by PathEnd
   std::array<double, path_ends> power = {};           ///< by PathEnd; in proportion to the flux of the lights
   std::uint64_t landings = 0;                         ///< meetings of photons and surfaces
+  std::array<BandLedger, 3> bands = {};               ///< of red, green and blue; 0 of photons with one power
 
   void add(PathEnd end, double of_photon) {
     ++photons[static_cast<std::size_t>(end)];
@@ -34,6 +50,7 @@ struct LightLedger {
       power[i] += other.power[i];
     }
     landings += other.landings;
+    for (std::size_t band = 0; band < bands.size(); ++band) bands[band] += other.bands[band];
   }
   [[nodiscard]] std::uint64_t all_photons() const { return photons[0] + photons[1] + photons[2] + photons[3]; }
   /// Of all power; 0 without any.

@@ -45,8 +45,8 @@ Lights::Lights(const Scene& scene) {
     const double own = scene.lights[i].flux;
     if (own == 0) continue;
     const double probability = shining == 1 ? 1 : (1 - even_share) * own / flux + even_share / shining;
-    shares_.push_back(
-        {std::move(emitters[i]), sum += probability, own / probability, extends(kind_of(scene.lights[i]))});
+    shares_.push_back({std::move(emitters[i]), sum += probability, own / probability, extends(kind_of(scene.lights[i])),
+                       kind_of(scene.lights[i]) == LightKind::surface});
   }
 }
 

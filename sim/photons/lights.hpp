@@ -27,6 +27,8 @@ class Lights {
   [[nodiscard]] EmittedPhoton photon(std::uint64_t photon, const std::array<double, 4>& random) const;
 
   [[nodiscard]] double power(std::uint64_t photon) const { return share_of(photon).power; }
+  /// Of the photon's light: it is that of triangles whose material emits.
+  [[nodiscard]] bool is_surface(std::uint64_t photon) const { return share_of(photon).is_surface; }
   /// Of the photon's light: it has an area, or shines from many directions.
   [[nodiscard]] bool has_extent(std::uint64_t photon) const { return share_of(photon).has_extent; }
 
@@ -36,6 +38,7 @@ class Lights {
     double up_to;  ///< sum of the probabilities up to and including this light
     double power;
     bool has_extent;
+    bool is_surface;
   };
   [[nodiscard]] const Share& share_of(std::uint64_t photon) const;
 

@@ -42,6 +42,7 @@ void reserve(std::size_t count, Paths& paths) {
   paths.photons.reserve(room);
   paths.landings.reserve(room);
   paths.triangles.reserve(room);
+  paths.further.reserve(room * paths.further_bands);
 }
 
 void append(const PhotonPieces& pieces, std::size_t count, Paths& paths) {
@@ -52,6 +53,8 @@ void append(const PhotonPieces& pieces, std::size_t count, Paths& paths) {
   add(pieces.photons, paths.photons);
   add(pieces.landings, paths.landings);
   add(pieces.triangles, paths.triangles);
+  const auto powers = static_cast<std::ptrdiff_t>(count * pieces.further_bands);
+  paths.further.insert(paths.further.end(), pieces.further.begin(), pieces.further.begin() + powers);
 }
 
 std::vector<double> shares_of(const Paths& paths, std::uint64_t wanted) {
@@ -72,8 +75,10 @@ TracedPaths photon_paths(const Scene& scene, std::size_t count, std::uint64_t se
   const PhotonTracer tracer(scene, seed, std::move(caster));
   PhotonRounds rounds(scene.name, count, photons_in_round);
   TracedPaths paths;
+  paths.further_bands = tracer.bands() - 1;
   reserve(count, paths);
   std::vector<PathEnd> ends;  // of photons
+  std::vector<std::array<BandLedger, 3>> bands;
   std::uint64_t traced = 0;
   StopCheck check(stop, "copying photon paths");
   try {
@@ -85,13 +90,16 @@ TracedPaths photon_paths(const Scene& scene, std::size_t count, std::uint64_t se
         const std::size_t taken = whole_photons(block, missing);
         append(block, taken, paths);
         ends.insert(ends.end(), block.ends.begin(), block.ends.end());
+        bands.insert(bands.end(), block.bands.begin(), block.bands.end());
         check.after(taken);
       }
       traced += photons;
     }
     if (count > 0) paths.photon_count = paths.photons.back() + 1;
-    for (std::uint64_t photon = 0; photon < paths.photon_count; ++photon)
+    for (std::uint64_t photon = 0; photon < paths.photon_count; ++photon) {
       paths.light.add(ends[photon], tracer.power(photon));
+      for (std::size_t band = 0; !bands.empty() && band < 3; ++band) paths.light.bands[band] += bands[photon][band];
+    }
     paths.light.landings = static_cast<std::uint64_t>(
         std::ranges::count_if(paths.landings, [](double distance) { return distance < unbounded; }));
     const std::vector<double> shares = powers == PhotonPowers::equal ? std::vector<double>() : shares_of(paths, count);
@@ -101,10 +109,15 @@ TracedPaths photon_paths(const Scene& scene, std::size_t count, std::uint64_t se
       return paths;
     }
     for_each_checked(0, paths.rays.size(), check, [&](std::size_t i) {
-      if (shares.empty())
-        paths.rays[i].power /= equal;
-      else
-        paths.rays[i].power *= shares[paths.photons[i]];
+      const auto scale = [&](double& power) {
+        if (shares.empty())
+          power /= equal;
+        else
+          power *= shares[paths.photons[i]];
+      };
+      scale(paths.rays[i].power);
+      for (std::size_t band = 0; band < paths.further_bands; ++band)
+        scale(paths.further[i * paths.further_bands + band]);
     });
   } catch (const Stopped&) {
     stopped_tracing(paths.rays.size(), count);

@@ -19,13 +19,19 @@ namespace {
 constexpr std::uint64_t group_size = 1024;  // photons in a group
 constexpr std::uint64_t most_in_a_round = 1ULL << 26;
 constexpr std::uint64_t first_known = 1ULL << 16;  // rays, before the first is read
-constexpr std::size_t bytes_of_ray = sizeof(Ray) + sizeof(std::uint64_t);
+/// With its photon's number.
+std::size_t bytes_of_ray(std::size_t bands) {
+  return sizeof(Ray) + sizeof(std::uint64_t) + (bands - 1) * sizeof(double);
+}
 
 /// Of the first photons of some that begin with number `first`.
 LightLedger ledger_of(const PhotonTracer& tracer, std::uint64_t first, const PhotonPieces& pieces,
                       std::uint64_t photons) {
   LightLedger light;
-  for (std::uint64_t i = 0; i < photons; ++i) light.add(pieces.ends[i], tracer.power(first + i));
+  for (std::uint64_t i = 0; i < photons; ++i) {
+    light.add(pieces.ends[i], tracer.power(first + i));
+    for (std::size_t band = 0; !pieces.bands.empty() && band < 3; ++band) light.bands[band] += pieces.bands[i][band];
+  }
   for (std::size_t i = 0; i < pieces.rays.size() && pieces.photons[i] < first + photons; ++i)
     light.landings += pieces.landings[i] < unbounded ? 1 : 0;
   return light;
@@ -53,7 +59,8 @@ PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_
     : tracer_(scene, seed, std::move(caster)),
       counting_(counting),
       wanted_(count),
-      most_kept_(counting == Counting::ahead ? most_kept_bytes() : 2.0 * bytes_of_ray * first_known),
+      most_kept_(counting == Counting::ahead ? most_kept_bytes()
+                                             : 2.0 * static_cast<double>(bytes_of_ray(tracer_.bands()) * first_known)),
       origins_(origins_of(scene)),
       known_(new Known{
           .rounds = PhotonRounds(scene.name, count, most_in_a_round), .kept = {}, .ledgers = {}, .count = count}) {
@@ -82,18 +89,21 @@ const PhotonPieces& PhotonSource::pieces_of(std::uint64_t group, PhotonPieces& t
 }
 
 std::unique_ptr<const PhotonPieces> PhotonSource::keep(const PhotonPieces& pieces) const {
-  const std::size_t bytes = pieces.rays.size() * bytes_of_ray;
+  const std::size_t bytes = pieces.rays.size() * bytes_of_ray(bands());
   const std::uint64_t all = known_->kept_bytes.fetch_add(bytes) + bytes;
   if (counting_ == Counting::ahead && static_cast<double>(all) > most_kept_) return nullptr;
   auto kept = std::make_unique<PhotonPieces>();
   kept->rays.assign(pieces.rays.begin(), pieces.rays.end());
   kept->photons.assign(pieces.photons.begin(), pieces.photons.end());
+  kept->further = pieces.further;
+  kept->further_bands = pieces.further_bands;
   return kept;
 }
 
 double PhotonSource::kept_bytes(std::size_t block) const {
   if (counting_ == Counting::ahead) return std::min(static_cast<double>(known_->kept_bytes), most_kept_);
-  return std::min(static_cast<double>(wanted_ * bytes_of_ray), most_kept_ + static_cast<double>(block * bytes_of_ray));
+  return std::min(static_cast<double>(wanted_ * bytes_of_ray(bands())),
+                  most_kept_ + static_cast<double>(block * bytes_of_ray(bands())));
 }
 
 void PhotonSource::know(std::uint64_t rays, Ranks& ranks, const std::stop_token& stop) const {
@@ -221,6 +231,8 @@ void PhotonSource::read_all(std::uint64_t first, std::span<Ray> block, BesideRay
   const DefaultFloatingPoint mode;
   std::vector<std::uint64_t>& photons = beside.photons;
   photons.resize(block.size());
+  const std::size_t further = bands() - 1;
+  beside.further.resize(block.size() * further);
   if (block.empty()) return;
   const std::vector<std::uint64_t>& starts = known_->starts;
   const std::vector<double>& shares = known_->shares;
@@ -234,11 +246,16 @@ void PhotonSource::read_all(std::uint64_t first, std::span<Ray> block, BesideRay
       photons[number - first] = pieces.photons[number - starts[group]];
       Ray& ray = block[number - first] = pieces.rays[number - starts[group]];
       if (!shares.empty()) ray.power *= shares[photons[number - first]];
+      for (std::size_t band = 0; band < further; ++band) {
+        double& power = beside.further[(number - first) * further + band];
+        power = pieces.further[(number - starts[group]) * further + band];
+        if (!shares.empty()) power *= shares[photons[number - first]];
+      }
     }
     const bool is_read = to == starts[group] + pieces.rays.size();
     if (counting_ == Counting::ahead || !is_read || static_cast<double>(known_->kept_bytes) <= most_kept_) return;
     if (known_->kept[group] == nullptr) return;
-    known_->kept_bytes -= pieces.rays.size() * bytes_of_ray;
+    known_->kept_bytes -= pieces.rays.size() * bytes_of_ray(bands());
     known_->kept[group] = nullptr;
   });
 }

@@ -43,6 +43,7 @@ class PhotonSource final : public RaySource {
   [[nodiscard]] std::uint64_t block_end(std::uint64_t first, std::uint64_t most,
                                         const std::stop_token& stop = {}) const override;
   [[nodiscard]] std::uint64_t first_ray_of(std::uint64_t photon) const override;
+  [[nodiscard]] std::size_t bands() const override { return tracer_.bands(); }
   void read_all(std::uint64_t first, std::span<Ray> block, BesideRays& beside,
                 const std::stop_token& stop = {}) const override;
   [[nodiscard]] double farthest_from(const glm::dvec3& point) const override;

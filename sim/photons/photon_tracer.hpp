@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace detp::sim {
 
 /// The straight pieces of some photons' paths, in order.
 struct PhotonPieces : Paths {
-  std::vector<PathEnd> ends = {};  ///< of each photon
+  std::vector<PathEnd> ends = {};                     ///< of each photon
+  std::vector<std::array<BandLedger, 3>> bands = {};  ///< of each photon with three powers
 };
 
 /// Traces photons through a scene as photon_paths (photon_paths.hpp) describes. Each photon is a function of the seed
@@ -28,6 +30,8 @@ class PhotonTracer {
   [[nodiscard]] PhotonPieces trace(std::uint64_t first, std::uint64_t last, const std::stop_token& stop = {},
                                    std::uint64_t most = UINT64_MAX) const;
 
+  /// Number of powers of each ray.
+  [[nodiscard]] std::size_t bands() const { return walk_.rgb() ? 3 : 1; }
   /// Power of a photon.
   [[nodiscard]] double power(std::uint64_t photon) const { return walk_.power(photon); }
 

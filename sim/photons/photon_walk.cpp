@@ -38,6 +38,9 @@ PhotonWalk::PhotonWalk(const Scene& scene, std::uint64_t seed, std::shared_ptr<c
       materials_(scene.mesh.materials),
       seed_(seed),
       overshoot_(scene.overshoot / caster_->scale()) {
+  if (scene.rgb && materials_.all.empty()) materials_.all = {matt};
+  for (std::size_t i = 0; scene.rgb && i < materials_.all.size(); ++i)
+    colours_.push_back(colours_of(materials_.all[i]));
   const glm::dvec3 size = scene.box.size() / caster_->scale();
   reach_ = glm::length(size);
   gap_ = gap_share * reach_;

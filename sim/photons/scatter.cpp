@@ -50,15 +50,24 @@ double fresnel_reflectance(double cosine, double index) {
 
 std::optional<glm::dvec3> scattered(const Material& material, const glm::dvec3& normal, const glm::dvec3& incoming,
                                     const std::array<double, 4>& random) {
+  const auto next =
+      scattered_by(material, {material.diffuse, material.specular, material.glass}, normal, incoming, random);
+  return next ? std::optional(next->direction) : std::nullopt;
+}
+
+std::optional<Scattered> scattered_by(const Material& material, const Shares& shares, const glm::dvec3& normal,
+                                      const glm::dvec3& incoming, const std::array<double, 4>& random) {
   const bool on_front = glm::dot(normal, incoming) < 0;
   const glm::dvec3 side = on_front ? normal : -normal;
   double rest = random[0];
-  if (rest < material.diffuse) return cosine_direction(side, random[1], random[2]);
-  rest -= material.diffuse;
-  if (rest < material.specular) return glossy(material.shininess, side, incoming, random[1], random[2]);
-  rest -= material.specular;
-  if (rest < material.glass)
-    return through_glass(on_front ? material.index : 1 / material.index, side, incoming, random[3]);
+  if (rest < shares.diffuse) return Scattered{cosine_direction(side, random[1], random[2]), ScatteredBy::diffuse};
+  rest -= shares.diffuse;
+  if (rest < shares.specular)
+    return Scattered{glossy(material.shininess, side, incoming, random[1], random[2]), ScatteredBy::specular};
+  rest -= shares.specular;
+  if (rest < shares.glass)
+    return Scattered{through_glass(on_front ? material.index : 1 / material.index, side, incoming, random[3]),
+                     ScatteredBy::glass};
   return std::nullopt;
 }
 

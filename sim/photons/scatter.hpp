@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "detp/sim/geometry/geometry.hpp"
@@ -25,6 +26,24 @@ namespace detp::sim {
 /// `normal` and `incoming` are unit vectors; `incoming` points to the surface.
 [[nodiscard]] std::optional<glm::dvec3> scattered(const Material& material, const glm::dvec3& normal,
                                                   const glm::dvec3& incoming, const std::array<double, 4>& random);
+
+/// By which of a material's shares a photon is scattered.
+enum class ScatteredBy : std::uint8_t { diffuse, specular, glass };
+
+struct Scattered {
+  glm::dvec3 direction;
+  ScatteredBy by;
+};
+
+/// Probabilities, in place of a material's shares.
+struct Shares {
+  double diffuse, specular, glass;
+};
+
+/// As `scattered`, by these probabilities, and by what.
+[[nodiscard]] std::optional<Scattered> scattered_by(const Material& material, const Shares& shares,
+                                                    const glm::dvec3& normal, const glm::dvec3& incoming,
+                                                    const std::array<double, 4>& random);
 
 /// The side of a triangle that a photon meets.
 struct Side {

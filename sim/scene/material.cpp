@@ -2,10 +2,39 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 namespace detp::sim {
+
+Colours colours_of(const Material& material) {
+  return material.colours.value_or(Colours{glm::dvec3(material.diffuse), glm::dvec3(material.specular),
+                                           glm::dvec3(material.glass), glm::dvec3(material.emitted)});
+}
+
+void Materials::take_largest() {
+  const auto largest = [](const glm::dvec3& colour) { return std::max({colour.r, colour.g, colour.b}); };
+  for (Material& one : all) {
+    const Colours colours = colours_of(one);
+    const double sum = largest(colours.diffuse) + largest(colours.specular) + largest(colours.glass);
+    const double lowered = std::max(1.0, sum);
+    one.diffuse = largest(colours.diffuse) / lowered;
+    one.specular = largest(colours.specular) / lowered;
+    one.glass = largest(colours.glass) / lowered;
+    one.emitted = largest(colours.emitted);
+  }
+}
+
+void Materials::take_band(int band) {
+  for (Material& one : all) {
+    const Colours colours = colours_of(one);
+    one.diffuse = colours.diffuse[band];
+    one.specular = colours.specular[band];
+    one.glass = colours.glass[band];
+    one.emitted = colours.emitted[band];
+  }
+}
 
 void check(const Material& material) {
   const auto require = [&](bool holds, const char* what, double value) {

@@ -2,11 +2,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace detp::sim {
+
+/// What a material does with red, green and blue: its shares and radiance in each of these bands.
+struct Colours {
+  glm::dvec3 diffuse{0.0}, specular{0.0}, glass{0.0}, emitted{0.0};
+};
 
 /// How a surface scatters light, in one channel. The shares are probabilities: the rest of 1 is absorbed.
 struct Material {
@@ -15,10 +22,14 @@ struct Material {
   double specular = 0;   ///< share reflected around the mirror direction
   /// Exponent of the lobe around the mirror direction, as in Phong's model, at least 1. Infinite: a mirror.
   double shininess = std::numeric_limits<double>::infinity();
-  double glass = 0;    ///< share that is reflected or refracted by Fresnel's equations
-  double index = 1.5;  ///< of refraction behind the front, over that before it; > 0
-  double emitted = 0;  ///< radiance of the front, >= 0 and not subnormal
+  double glass = 0;                     ///< share that is reflected or refracted by Fresnel's equations
+  double index = 1.5;                   ///< of refraction behind the front, over that before it; > 0
+  double emitted = 0;                   ///< radiance of the front, >= 0 and not subnormal
+  std::optional<Colours> colours = {};  ///< none: grey
 };
+
+/// Of a material without colours: its shares in all bands.
+[[nodiscard]] Colours colours_of(const Material& material);
 
 /// The material of triangles that have none.
 inline const Material matt{};
@@ -52,6 +63,10 @@ struct Materials {
   [[nodiscard]] const Material& of(std::size_t triangle, bool front) const {
     return !front && has_back(triangle) ? all[of_back[triangle]] : of(triangle);
   }
+  /// With the largest share and radiance of the three bands each. Where these add up to more than 1, all are lowered.
+  void take_largest();
+  /// With the shares and radiance of one band.
+  void take_band(int band);
   /// Radiance of the triangle's front or back.
   [[nodiscard]] double emitted(std::size_t triangle, bool front) const {
     if (front) return of(triangle).emitted;

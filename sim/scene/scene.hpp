@@ -33,6 +33,8 @@ struct Scene {
   double overshoot = 0;
   /// Irradiance at all surfaces, where it is known.
   std::optional<double> known_irradiance = {};
+  bool rgb =
+      false;  ///< materials have their largest shares (Materials::take_largest); photons carry red, green and blue
   Notices notices;
 };
 

@@ -81,14 +81,20 @@ Json to_json(const Job& job, const JobRequest& request) {
 Json light_json(const sim::LightLedger& light) {
   using enum sim::PathEnd;
   const auto photons = [&](sim::PathEnd end) { return light.photons[static_cast<std::size_t>(end)]; };
-  return {{"photons", light.all_photons()},
-          {"absorbed", photons(absorbed)},
-          {"left", photons(left) + photons(missed)},
-          {"cut", photons(cut)},
-          {"absorbed_share", light.share(absorbed)},
-          {"left_share", light.share(left) + light.share(missed)},
-          {"cut_share", light.share(cut)},
-          {"landings", static_cast<double>(light.landings) / static_cast<double>(light.all_photons())}};
+  Json json{{"photons", light.all_photons()},
+            {"absorbed", photons(absorbed)},
+            {"left", photons(left) + photons(missed)},
+            {"cut", photons(cut)},
+            {"absorbed_share", light.share(absorbed)},
+            {"left_share", light.share(left) + light.share(missed)},
+            {"cut_share", light.share(cut)},
+            {"landings", static_cast<double>(light.landings) / static_cast<double>(light.all_photons())}};
+  for (std::size_t band = 0; band < light.bands.size(); ++band)
+    if (const sim::BandLedger& one = light.bands[band]; one.emitted > 0)
+      json["bands"][std::string(1, "rgb"[band])] = {{"absorbed_share", one.deposited / one.emitted},
+                                                    {"left_share", one.left / one.emitted},
+                                                    {"cut_share", one.cut / one.emitted}};
+  return json;
 }
 
 Json geometry_json(const sim::PolygonCounts& polygons, std::uint64_t normals_made, std::uint64_t coincident) {

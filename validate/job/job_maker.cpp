@@ -85,6 +85,7 @@ class JobMaker {
     job_.seed = request_.seed;
     job_.rays_from_file = request_.ray_file.has_value();
     job_.without_rays = request_.without_rays;
+    if (request_.rgb && !job_.rays_from_file) job_.bands = {"r", "g", "b"};
     job_.read_seconds = watch.lap();
     if (!request_.without_rays) sim::in_memory("making rays", [&] { make_rays(); });
     (job_.rays_from_file ? job_.read_seconds : job_.trace_seconds) += watch.lap();
@@ -175,7 +176,7 @@ class JobMaker {
     if (request_.samples)
       samples = count_in_memory("samples", *request_.samples, sizeof(sim::Sample) + sizeof(sim::Disc));
     scene_ = sim::open_scene({*request_.scene, samples, request_.seed, request_.lights,
-                              request_.crease.value_or(sim::default_crease), request_.up},
+                              request_.crease.value_or(sim::default_crease), request_.rgb, request_.up},
                              stop_);
     job_.name = scene_->name;
     job_.notices = scene_->notices;
@@ -202,6 +203,7 @@ class JobMaker {
 
   void make_rays() {
     if (request_.ray_file) {
+      if (request_.rgb) throw std::invalid_argument("--bands rgb is for photon paths; rays of a file have columns");
       refuse_lights("rays from a file");
       progress_.read_rays(*request_.ray_file, job_.disc_count());
       if (request_.rays)
@@ -225,6 +227,9 @@ class JobMaker {
       return;
     }
     if (!request_.bands.empty()) throw std::invalid_argument("--bands names columns of --ray-file, and there is none");
+    const bool are_photons =
+        request_.field.value_or(scene_ ? scene_->field : sim::Field::isotropic) == sim::Field::photons;
+    if (request_.rgb && !are_photons) throw std::invalid_argument("--bands rgb is for photon paths in a scene");
     const double rays = request_.rays.value_or(rays_by_default);
     require_count("number of rays", rays, 1, 1e18);
     job_.field = request_.field.value_or(scene_ ? scene_->field : sim::Field::isotropic);

@@ -32,7 +32,8 @@ struct LitMesh {
 /// ridge.
 [[nodiscard]] LitMesh courtyard();
 
-/// A box of side 1, open in front (+Z), with two blocks in it. An area light just under the ceiling shines down.
+/// A box of side 1, open in front (+Z), with two blocks in it. An area light just under the ceiling shines down. All surfaces reflect
+/// half of the light; in colours (Scene::rgb) the left wall is red, the right one green.
 [[nodiscard]] LitMesh cornell();
 
 /// A glass ball and a brass ring on the floor before a wall: light is focused into caustics. Most of the light comes from

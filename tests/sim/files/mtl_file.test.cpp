@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <glm/geometric.hpp>
+
 #include <cmath>
 #include <limits>
 
@@ -34,6 +36,23 @@ Material material_in(const std::string& statements) {
 }  // namespace
 
 TEST_SUITE("known answer") {
+  TEST_CASE("colours are kept beside their luminance; the filter of glass, too") {
+    CHECK_FALSE(material_in("Kd 0.4\nKs 0.1 0.1 0.1\nNs 20\n").colours);
+    const Material red = material_in("Kd 0.8 0.2 0.1\nKs 0 0.1 0\nNs 20\nKe 0 0 5\n");
+    REQUIRE(red.colours);
+    CHECK(red.diffuse == doctest::Approx(0.2126 * 0.8 + 0.7152 * 0.2 + 0.0722 * 0.1));
+    CHECK(glm::length(red.colours->diffuse - glm::dvec3(0.8, 0.2, 0.1)) < 1e-15);
+    CHECK(glm::length(red.colours->specular - glm::dvec3(0, 0.1, 0)) < 1e-15);
+    CHECK(red.colours->emitted == glm::dvec3(0, 0, 5));
+    const Material glass = material_in("Kd 0.5 0.1 0.1\nTf 0.9 1 7\nd 0.25\n");
+    REQUIRE(glass.colours);
+    CHECK(glm::length(glass.colours->diffuse - 0.25 * glm::dvec3(0.5, 0.1, 0.1)) < 1e-15);
+    CHECK(glass.colours->glass == 0.75 * glm::dvec3(0.9, 1, 1));
+    const Material bright = material_in("Kd 1 0.9 0.2\nKs 0.5 0.1 0\nNs 20\n");
+    REQUIRE(bright.colours);
+    for (int band = 0; band < 3; ++band) CHECK(bright.colours->diffuse[band] + bright.colours->specular[band] <= 1);
+  }
+
   TEST_CASE("colours become their luminance; one number is a grey") {
     const Material one = material_in("Kd 1 0.5 0\nKe 2\nKs 0 0 0\n");
     CHECK(one.name == "one");

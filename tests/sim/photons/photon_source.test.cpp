@@ -32,20 +32,23 @@ Paths read_all(const PhotonSource& source, std::size_t block) {
     paths.rays.resize(end);
     source.read_all(first, std::span(paths.rays).subspan(first), beside);
     paths.photons.insert(paths.photons.end(), photons.begin(), photons.end());
+    paths.further.insert(paths.further.end(), beside.further.begin(), beside.further.end());
     CHECK(source.photons_of(end) > photons.back());
   }
   paths.photon_count = source.photons();
   if (source.scale(source.size()) == 1) return paths;
   CHECK(source.scale(source.size()) == 1 / static_cast<double>(paths.photon_count));
   for (Ray& ray : paths.rays) ray.power /= static_cast<double>(paths.photon_count);
+  for (double& power : paths.further) power /= static_cast<double>(paths.photon_count);
   return paths;
 }
 
 /// Compares the source's rays with photon_paths, for some blocks.
 void compare_blocks(double kept, Counting counting) {
   CAPTURE(kept);
-  for (const char* name : {"@cornell", "@tree-coarse"}) {
-    const Scene scene = open_scene({.name = name, .samples = {}});
+  for (const char* name : {"@cornell", "@cornell in colours", "@tree-coarse"}) {
+    const bool rgb = name == std::string("@cornell in colours");
+    const Scene scene = open_scene({.name = rgb ? "@cornell" : name, .samples = {}, .rgb = rgb});
     for (const std::size_t count : {1, 5001, 150'000}) {
       INFO("name ", name, ", count ", count);
       const TracedPaths expected = photon_paths(scene, count, 3);
@@ -57,6 +60,7 @@ void compare_blocks(double kept, Counting counting) {
         REQUIRE(source.size() == size);
         CHECK(found.photon_count == expected.photon_count);
         CHECK(found.photons == expected.photons);
+        CHECK(found.further == expected.further);
         CHECK(std::memcmp(found.rays.data(), expected.rays.data(), size * sizeof(Ray)) == 0);
       }
       const LightLedger light = source.light_of(source.photons());

@@ -74,10 +74,13 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
                      "rays from a CSV, PLY or NPY file; default: made, as --field says");
   lists.add(
       command, "--bands", Values::one, words,
-      [this](const std::string& text) { request_.bands = sim::parse_bands(text); },
-      "powers in bands: names, and the columns of the ray file that have them, as r=red,g=green,b=blue; default: "
-      "columns "
-      "power_r, power_g and so on, or power");
+      [this](const std::string& text) {
+        request_.rgb = text == "rgb";
+        if (!request_.rgb) request_.bands = sim::parse_bands(text);
+      },
+      "powers in bands: rgb (photons in the colours of the scene's materials), or names and the columns of the ray "
+      "file "
+      "that have them, as r=red,g=green,b=blue; default: one power, or columns power_r, power_g and so on");
   lists.add_count(command, "--rays", axes.value_or(values), request_.rays, "how many rays, as 100k; default: 100k");
   lists.add_count(command, "--samples", values, request_.samples,
                   "how many samples; default: the scene's vertices, with numbers alone none");

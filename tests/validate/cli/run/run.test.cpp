@@ -414,6 +414,14 @@ TEST_SUITE("end to end") {
     CHECK(table.out.find(",mean_irradiance_r,") != std::string::npos);
     CHECK(detp(Arguments{"run", "--discs", discs, "--ray-file", both, "--target-noise", "5%"})
               .err.find("takes rays with one power; these have the bands r, g") != std::string::npos);
+    const Json rgb = result_of("run @cornell --bands rgb --rays 5000 --samples 100");
+    CHECK(rgb.at("bands") == Json{"r", "g", "b"});
+    CHECK(rgb.at("mean_irradiance").at("b").get<double>() < rgb.at("mean_irradiance").at("r").get<double>());
+    for (const auto& [band, light] : rgb.at("light").at("bands").items())
+      CHECK(std::abs(light.at("absorbed_share").get<double>() + light.at("left_share").get<double>() +
+                     light.at("cut_share").get<double>() - 1) < 1e-9);
+    CHECK(detp(words("run @cornell --bands rgb --field isotropic")).err.find("rgb is for photon paths") !=
+          std::string::npos);
     CHECK(detp(words("run @cornell --bands r=red")).err.find("--bands names columns of --ray-file") !=
           std::string::npos);
   }
