@@ -12,6 +12,7 @@
 #include "detp/sim/reference/backward_paths.hpp"
 #include "detp/sim/search/irradiance.hpp"
 #include "detp/sim/search/run_memory.hpp"
+#include "detp/sim/technique/technique.hpp"
 
 namespace detp::sim {
 namespace {

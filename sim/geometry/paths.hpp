@@ -24,6 +24,11 @@ struct FurtherPowers {
   [[nodiscard]] FurtherPowers from(std::size_t ray) const { return {values.subspan(ray * bands), bands}; }
 };
 
+/// Bytes of a ray with powers in so many bands.
+[[nodiscard]] constexpr std::size_t bytes_of_ray_in(std::size_t bands) {
+  return sizeof(Ray) + (bands - 1) * sizeof(double);
+}
+
 /// A ray has so many powers at most.
 inline constexpr std::size_t most_bands = 64;
 

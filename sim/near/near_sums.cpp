@@ -68,7 +68,8 @@ void sum_near(const Problem& problem, const RunOptions& options,
               const std::function<void(std::uint32_t disc, Near& near)>& find, Outcome& outcome) {
   constexpr std::size_t discs_at_once = 128;
   const std::size_t discs = problem.discs().size();
-  std::vector<std::vector<DiscSums>> sums(problem.bands(), std::vector<DiscSums>(discs));
+  std::vector<std::vector<DiscSums>> sums(problem.bands());
+  for (std::vector<DiscSums>& of_band : sums) of_band.resize(discs);
   resize_results(discs, options.standard_error, outcome, problem.bands());
   const std::vector<char> done = for_each_disc(options, discs, discs_at_once, [&] {
     return [&, near = Near{}](std::size_t i) mutable {

@@ -20,9 +20,7 @@ constexpr std::uint64_t group_size = 1024;  // photons in a group
 constexpr std::uint64_t most_in_a_round = 1ULL << 26;
 constexpr std::uint64_t first_known = 1ULL << 16;  // rays, before the first is read
 /// With its photon's number.
-std::size_t bytes_of_ray(std::size_t bands) {
-  return sizeof(Ray) + sizeof(std::uint64_t) + (bands - 1) * sizeof(double);
-}
+std::size_t bytes_of_ray(std::size_t bands) { return bytes_of_ray_in(bands) + sizeof(std::uint64_t); }
 
 /// Of the first photons of some that begin with number `first`.
 LightLedger ledger_of(const PhotonTracer& tracer, std::uint64_t first, const PhotonPieces& pieces,

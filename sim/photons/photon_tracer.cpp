@@ -64,7 +64,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, std::uint64_t seed, std::shared_p
 
 PhotonPieces PhotonTracer::trace(std::uint64_t first, std::uint64_t last, const std::stop_token& stop,
                                  std::uint64_t most) const {
-  constexpr double piece_bytes = sizeof(Ray) + sizeof(std::uint64_t) + sizeof(double) + sizeof(std::uint32_t);
+  const auto piece_bytes =
+      static_cast<double>(bytes_of_ray_in(bands()) + sizeof(std::uint64_t) + sizeof(double) + sizeof(std::uint32_t));
   constexpr std::uint64_t many = std::uint64_t{1} << 20;
   StopCheck check(stop, "tracing photons");
   check.now();

@@ -56,11 +56,8 @@ class PhotonWalk {
     auto [from, power] = lights_.photon(photon, uniform4(seed_, Stream::photons, photon));
     glm::dvec3 tint = tint_at_start(photon, from);
     from.origin = caster_->to_caster(from.origin);
-    const auto tell = [&] {
-      if constexpr (requires { recorder.tint(tint); }) recorder.tint(tint);
-    };
     for (std::uint64_t bounce = 1; bounce <= most_pieces; ++bounce) {
-      tell();
+      tell(recorder, tint);
       const auto hit = caster_->first_intersection(from.origin, from.direction, from.triangle);
       if (!hit) {
         if (const double distance = distance_out(from); distance > 0)
@@ -77,11 +74,11 @@ class PhotonWalk {
       recorder.piece(piece(from, hit->distance, beyond, power), landing(hit->distance));
       recorder.met(hit->triangle, power, !next);
       tint = next ? tint_after(side.material, shares, next->by, tint) : glm::dvec3(0.0);
-      if (!next) tell();
+      if (!next) tell(recorder, tint);
       if (!next) return PathEnd::absorbed;
       from = {end, next->direction, hit->triangle};
     }
-    tell();
+    tell(recorder, tint);
     return PathEnd::cut;
   }
 
@@ -92,6 +89,10 @@ class PhotonWalk {
   [[nodiscard]] double distance_out(const PhotonStart& from) const;
   [[nodiscard]] double overshoot(const glm::dvec3& end, const glm::dvec3& direction, std::uint32_t triangle) const;
 
+  template <class Recorder>
+  static void tell(Recorder& recorder, const glm::dvec3& tint) {
+    if constexpr (requires { recorder.tint(tint); }) recorder.tint(tint);
+  }
   [[nodiscard]] glm::dvec3 tint_at_start(std::uint64_t photon, const PhotonStart& from) const {
     if (colours_.empty() || !lights_.is_surface(photon)) return glm::dvec3(1.0);
     const Material& material = materials_.of(*from.triangle, !from.on_back);

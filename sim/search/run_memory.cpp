@@ -15,7 +15,7 @@ namespace {
 constexpr double small_bytes = 0x1p19;
 
 double given_bytes(const Problem& problem) {
-  return problem.kept_bytes() + static_cast<double>(problem.rays().size()) * sizeof(Ray) +
+  return problem.kept_bytes() + static_cast<double>(problem.rays().size() * bytes_of_ray_in(problem.bands())) +
          static_cast<double>(problem.discs().size()) * sizeof(Disc);
 }
 

@@ -88,7 +88,8 @@ void Searcher::search_pieces(const RaysView& rays, std::size_t piece, SearchScra
   options.memory = &scratch.memory;
   scratch.memory.begin();
   clear(scratch.outcome);
-  SuccessiveSearch pieces(*index_, problem_, options, 0, rays.count, static_cast<double>(piece * sizeof(Ray)),
+  SuccessiveSearch pieces(*index_, problem_, options, 0, rays.count,
+                          static_cast<double>(piece * bytes_of_ray_in(1 + rays.further_powers.size())),
                           scratch.outcome);
   double reading = 0;
   while (pieces.next() < rays.count && !pieces.stopped()) {

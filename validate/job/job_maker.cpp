@@ -166,7 +166,7 @@ class JobMaker {
 
   /// Rays in memory, discs, and the index and results of most techniques do not fit.
   [[nodiscard]] bool all_are_large(double rays) const {
-    return on_any_rank(static_cast<double>(sizeof(sim::Ray)) * rays +
+    return on_any_rank(static_cast<double>(sim::bytes_of_ray_in(request_.rgb ? 3 : 1)) * rays +
                            sim::bytes_of_disc * static_cast<double>(job_.disc_count()) >
                        sim::memory_budget());
   }
@@ -242,8 +242,10 @@ class JobMaker {
     progress_.make_rays(job_.field, made, stream, job_.disc_count());
     if (stream) return make_stream(static_cast<std::uint64_t>(rays));
     const bool paths = job_.field == sim::Field::photons;
-    const std::size_t count = count_in_memory(
-        "rays", made, sizeof(sim::Ray) + (paths ? sizeof(std::uint64_t) + sizeof(double) + sizeof(std::uint32_t) : 0));
+    const std::size_t count =
+        count_in_memory("rays", made,
+                        sim::bytes_of_ray_in(request_.rgb ? 3 : 1) +
+                            (paths ? sizeof(std::uint64_t) + sizeof(double) + sizeof(std::uint32_t) : 0));
     if (job_.field != sim::Field::photons) {
       read_rays(*job_.field_rays(count, stop_));
       return;
