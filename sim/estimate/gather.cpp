@@ -127,20 +127,25 @@ Outcome gather(const Problem& problem, const Scene& scene, std::uint64_t paths, 
     return run(problem, *prepare_gather(one, paths, seed, options), options);
   };
   if (!scene.rgb) return in_scene(scene);
-  Outcome all;
+  std::vector<BandResults> bands;
+  Outcome all;  // hits are those of the first band with light
   for (int band = 0; band < 3; ++band) {
     Outcome found;
     if (const Scene one = in_band(scene, band); has_light(one))
       found = in_scene(one);
     else
       resize_results(problem.discs().size(), options.standard_error, found);
-    if (band == 0) {
-      all = std::move(found);
-      continue;
-    }
-    all.stopped = all.stopped || found.stopped;
-    all.further.push_back(std::move(found));
+    bands.push_back(found);
+    if (found.progress.of == 0) continue;  // dark
+    const double before = all.seconds.search;
+    if (all.progress.of == 0 || found.stopped) all = std::move(found);
+    all.seconds.search += before;
+    if (all.stopped) break;
   }
+  bands.resize(3, bands.back());  // of a stopped search, bands that were not begun have no meaning
+  static_cast<BandResults&>(all) = bands[0];
+  all.further.assign(bands.begin() + 1, bands.end());
+  if (all.stopped && !all.done_discs.empty()) keep_done_discs(all);
   return all;
 }
 

@@ -229,7 +229,7 @@ HWY_NOINLINE inline void add_photons(const BlockSearch& block, const double* pow
 
 template <bool segments, bool front_facing, int k>
 HWY_INLINE void sum_hits(const BlockSearch& block, const TreeNode& leaf, const RayList& rays, Worker& worker) {
-  std::uint32_t* const room = room_for_hits(2 * rays.size, worker);
+  std::uint32_t* const room = room_for_hits((block.further.bands == 0 ? 1 : 2) * rays.size, worker);
   if (HWY_LIKELY(block.further.bands == 0)) {
     for (std::uint32_t place = leaf.first; place < leaf.first + leaf.count; ++place) {
       const FoundRays found = find_hits<segments, front_facing, k>(block, place, rays, room, worker);

@@ -22,7 +22,7 @@ std::vector<Disc> discs_of(const Scene& scene, double radius) {
   return discs;
 }
 
-/// The walls of @furnace in other colours: one whose largest shares add up to more than 1, with gloss and a filter.
+/// The walls of @furnace in other colours: one whose largest shares add up to more than 1, with gloss.
 Scene coloured_furnace(const Colours& colours) {
   Scene scene = open_scene({.name = "@furnace", .samples = 100});
   scene.mesh.materials.all.front().colours = colours;
@@ -107,6 +107,20 @@ TEST_SUITE("colours") {
       CHECK(light.left > 0.2 * light.emitted);
     }
     CHECK(means[2] < 0.95 * means[0]);  // both coloured walls are dark in blue
+  }
+
+  TEST_CASE("gather in a room that is lit in blue alone: no light in the other bands, hits of the blue one") {
+    const Scene scene = coloured_furnace({.diffuse = {0.5, 0.5, 0.5}, .emitted = {0, 0, 2}});
+    const std::vector<Disc> discs = discs_of(scene, 0.1);
+    const Outcome found = estimate(make_problem_without_rays(discs, 0, true),
+                                   {.estimator = Estimator::gather, .scene = &scene, .paths = 64});
+    REQUIRE(found.bands() == 3);
+    CHECK(std::ranges::count(found.irradiance, 0) == 100);
+    CHECK(std::ranges::count(found.further[0].irradiance, 0) == 100);
+    CHECK(found.further[1].irradiance[7] > 5);
+    CHECK(found.hits[7] > 0);
+    CHECK(found.total_hits > 0);
+    CHECK_FALSE(found.stopped);
   }
 
   TEST_CASE("no weight exceeds 1, and without colours all bands have the bytes of one") {
