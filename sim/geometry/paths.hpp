@@ -68,6 +68,18 @@ struct Paths {
   std::uint64_t photon_count = 0;
   double scale = 1;
 
+  /// A ray of others with what they have of it, as a piece of the path of `photon`, if they have photons.
+  void add(const PathRays& others, std::size_t ray, std::uint64_t photon) {
+    rays.push_back(others.rays[ray]);
+    if (!others.photons.empty()) photons.push_back(photon);
+    if (!others.landings.empty()) landings.push_back(others.landings[ray]);
+    if (!others.triangles.empty()) triangles.push_back(others.triangles[ray]);
+    further_bands = others.further.bands;
+    if (further_bands == 0) return;
+    const std::span<const double> powers = others.further.of(ray);
+    further.insert(further.end(), powers.begin(), powers.end());
+  }
+
   operator PathRays() const {
     PathRays all(rays, photons, landings, photon_count, triangles);
     all.further = {further, further_bands};

@@ -62,13 +62,14 @@ Problem StreamedSearch::problem_of(std::span<const Disc> discs) {
 void StreamedSearch::predict_bytes() {
   const double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) +
                             (options_.run.standard_error ? error_bytes : 0);
+  const auto ray_bytes = static_cast<double>(bytes_of_ray_in(source_.bands()));
   own_bytes_ = options_.kept_bytes + source_.kept_bytes(streamed_.block) +
                static_cast<double>(problem_.discs().size()) * for_a_disc +
-               static_cast<double>(streamed_.block) * (sizeof(Ray) + (source_.numbered() ? sizeof(std::uint64_t) : 0));
+               static_cast<double>(streamed_.block) * (ray_bytes + (source_.numbered() ? sizeof(std::uint64_t) : 0));
   streamed_.bytes = own_bytes_;
   require_memory(fmt::format("{} discs and blocks of {} rays", problem_.discs().size(), streamed_.block), own_bytes_);
   problem_.set_kept_bytes(own_bytes_ - static_cast<double>(problem_.discs().size()) * sizeof(Disc) -
-                          static_cast<double>(streamed_.block) * sizeof(Ray));
+                          static_cast<double>(streamed_.block) * ray_bytes);
 }
 
 void StreamedSearch::search(std::uint64_t first, std::uint64_t last, Totals* totals) {

@@ -28,6 +28,7 @@ SuccessiveSearch::SuccessiveSearch(const Index& index, Problem problem, const Ru
       last_(last),
       next_(first),
       kept_bytes_(kept_bytes),
+      beside_rays_bytes_(problem_.kept_bytes()),
       sum_(sum) {
   check_options(options, problem_);
   require_pairs(last);
@@ -57,6 +58,9 @@ void SuccessiveSearch::add(const PathRays& rays) {
   if (!rays.photons.empty())
     require_rising(next_, rays.photons.front(), std::exchange(last_photon_, rays.photons.back()));
   set_rays(problem_, rays, options_.threads, next_);
+  const auto bytes = static_cast<double>(rays.rays.size() * bytes_of_ray_in(problem_.bands()));
+  longest_bytes_ = std::max(longest_bytes_, bytes);  // a shorter piece does not make its arrays shorter
+  problem_.set_kept_bytes(beside_rays_bytes_ + longest_bytes_ - bytes);
   sum_.seconds.prepare += watch.lap();
   sim::search(index_, problem_, run_, part_);
   add_pairs();

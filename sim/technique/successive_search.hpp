@@ -52,6 +52,8 @@ class SuccessiveSearch {
   std::uint64_t next_;
   std::uint64_t done_ = 0;
   double kept_bytes_;
+  double beside_rays_bytes_;
+  double longest_bytes_ = 0;  ///< of a piece's rays
   Outcome part_;
   Outcome& sum_;
   std::uint64_t last_photon_ = 0;

@@ -162,6 +162,19 @@ class Calls(unittest.TestCase):
                                 most_rays=20000)
         self.assertFalse(far.reached)
         self.assertGreater(far.share_bound or 0, 0)
+        again = iter(range(10, 10_000))
+
+        def in_colours(wanted: int) -> detp.Batch:
+            powers = np.tile([2.0, 6.0, 0.5], (wanted, 1))
+            return detp.Batch(detp.Rays(*some_rays(wanted, seed=next(again)), 2.0, powers), scale=1 / wanted)
+
+        green = plan.search_until(in_colours, 0.05, bands=3, noise_of=1)
+        self.assertEqual(green.rays, estimate.rays)
+        self.assertAlmostEqual(green.noise, estimate.noise, places=12)
+        np.testing.assert_allclose(green.irradiance, np.outer(estimate.irradiance, [2, 6, 0.5]), rtol=1e-12)
+        self.assertEqual(list(green.to_pandas()), ["irradiance_0", "irradiance_1", "irradiance_2"])
+        with self.assertRaisesRegex(ValueError, "noise_of is 3, but bands are numbered from 0 to 2"):
+            plan.search_until(in_colours, 0.05, bands=3, noise_of=3)
 
     def test_numbers_that_a_function_returns_are_checked(self) -> None:
         rays = detp.Rays(*some_rays(1000))

@@ -57,6 +57,8 @@ Json origin_json(const JobRequest& request, const std::string& scene, sim::Field
     json["ray_file"] = *request.ray_file;
   else if (!request.without_rays)
     json["field"] = name(field);
+  if (request.rgb) json["bands"] = "rgb";
+  for (const sim::BandColumn& band : request.bands) json["bands"][band.name] = band.column;
   if (request.crease) json["crease"] = *request.crease;
   json["front_facing"] = request.front_facing;
   if (request.second_intersection) json["second_intersection"] = true;

@@ -222,19 +222,21 @@ typedef struct detp_target {
   double noise;      /* relative to the root mean square irradiance, over the discs by area: 0.05 */
   double confidence; /* that the noise of this run is smaller; 0: 0.95 */
   double most_rays;  /* 0: 10^9 */
+  size_t noise_of;   /* of several bands: 0: of their sum; n: of band n - 1 */
 } detp_target;
 
 typedef enum detp_reason { DETP_REACHED = 0, DETP_NO_MORE_RAYS = 1, DETP_ENDED = 2 } detp_reason;
 
 typedef struct detp_estimate {
   size_t size;
-  double *irradiance; /* of each disc; may be null */
+  double *irradiance; /* of each disc a number, or a row of one for each band; may be null */
   /* set by the search: */
   double noise, noise_low, noise_high; /* with the target's confidence, each end alone */
   double photons;
   uint64_t rays;
   int reason;         /* detp_reason */
   double share_bound; /* if no photon met any disc: at most this share of the photons meets one; else 0 */
+  size_t bands;       /* of the rays, 0: 1; to be set before the search */
 } detp_estimate;
 
 /* Searches batches of rays until the noise is below the target. A search that `next` or `progress` stops has the estimate so far, with the reason

@@ -11,7 +11,8 @@ namespace {
 /// Rays from the caller's function, copied batch by batch.
 class CallersRays {
  public:
-  CallersRays(detp_next_rays next, void* user, int threads) : next_(next), user_(user), threads_(threads) {}
+  CallersRays(detp_next_rays next, void* user, int threads, std::size_t bands)
+      : next_(next), user_(user), threads_(threads), bands_(bands) {}
 
   std::optional<validate::RayBatch> operator()(std::uint64_t wanted) {
     detp_rays rays{};
@@ -22,14 +23,15 @@ class CallersRays {
     if (answer == 1) return std::nullopt;
     if (answer != 0) throw sim::Stopped("the function for the next rays stopped the search", {});
     const sim::RaysView view = c::view_of(&rays);
-    if (!view.further_powers.empty())
-      throw std::invalid_argument("the next rays: a search until an error takes rays with one power");
+    c::require_bands("the next rays: estimate.bands", bands_, view);
     require_non_negative("the next rays: number of photons", photons);
     if (view.count == 0 && photons == 0) throw std::invalid_argument("the next rays: there are none, and no photons");
-    sim::require_memory("the next rays", static_cast<double>(view.count) * sizeof(sim::Ray));
+    sim::require_memory("the next rays", static_cast<double>(view.count * sim::bytes_of_ray_in(bands_)));
     rays_.resize(view.count);
     sim::read_rays(view, 0, rays_, threads_);
+    sim::read_further_powers(view, 0, view.count, further_);
     batch.rays = sim::PathRays(rays_);
+    batch.rays.further = {further_, bands_ - 1};
     batch.rays.photons = view.photons;
     batch.photons = photons > 0 ? photons : static_cast<double>(view.count);
     return batch;
@@ -39,7 +41,9 @@ class CallersRays {
   detp_next_rays next_;
   void* user_;
   int threads_;
+  std::size_t bands_;
   std::vector<sim::Ray> rays_;
+  std::vector<double> further_;
 };
 
 }  // namespace
@@ -54,9 +58,7 @@ detp_status detp_search(const detp_plan* plan, const detp_rays* rays, detp_scrat
     detp_found ours = c::known(found, "found");
     const detp_search_options own = options != nullptr ? c::known(options, "options") : detp_search_options{};
     const sim::RaysView view = c::view_of(rays);
-    if (std::max<std::size_t>(1, ours.bands) != 1 + view.further_powers.size())
-      throw std::invalid_argument("found.bands is " + std::to_string(ours.bands) + ", but the rays have " +
-                                  std::to_string(1 + view.further_powers.size()));
+    c::require_bands("found.bands", ours.bands, view);
     c::Watch watch(own.progress, own.user, "searching");
     sim::RunOptions wanted{.count = own.count != 0,
                            .pairs = own.pairs != 0,
@@ -122,18 +124,25 @@ detp_status detp_search_until(const detp_plan* plan, detp_next_rays next, void* 
                                              .confidence = wanted.confidence == 0 ? 0.95 : wanted.confidence};
     check(error_target);
     c::Watch watch(progress, user, "searching");
-    CallersRays rays(next, next_user, one.plan.threads());
+    const std::size_t bands = std::max<std::size_t>(1, ours.bands);
+    if (wanted.noise_of > bands)
+      throw std::invalid_argument("target.noise_of is " + std::to_string(wanted.noise_of) + ", but there are " +
+                                  std::to_string(bands) + " bands");
+    const auto of_band = wanted.noise_of == 0 ? validate::BandInQuestion{} : wanted.noise_of - 1;
+    CallersRays rays(next, next_user, one.plan.threads(), bands);
     validate::UntilOptions options{.progress = watch.report()};
     if (wanted.most_rays != 0) options.most_rays = wanted.most_rays;
     const auto next_or_stop = [&](std::uint64_t count) {
       if (watch.token().stop_requested()) throw sim::Stopped("the progress function stopped the search", {});
       return rays(count);
     };
-    const validate::ExecutedUntil found =
-        validate::execute_until(one.plan, next_or_stop, one.weights, error_target, options);
+    validate::ExecutedUntil found =
+        validate::execute_until(one.plan, next_or_stop, one.weights, error_target, options, of_band);
     const validate::UntilResult& result = found.result;
-    if (ours.irradiance != nullptr && result.irradiance.size() == one.discs)
-      std::copy(result.irradiance.begin(), result.irradiance.end(), ours.irradiance);
+    found.fill_outcome();
+    if (!found.bands.empty())
+      for (std::size_t band = 0; band < bands; ++band)
+        c::copy(found.outcome.band(band).irradiance, ours.irradiance, one.discs, band, bands);
     ours.noise = result.noise.value;
     ours.noise_low = result.noise.low;
     ours.noise_high = result.noise.high;

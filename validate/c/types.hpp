@@ -64,6 +64,13 @@ void copy(const std::vector<T>& values, T* to, std::size_t count, std::size_t fi
     to[first + i * stride] = values.size() == count ? values[i] : std::numeric_limits<T>::quiet_NaN();
 }
 
+/// Throws std::invalid_argument unless the rays have so many bands, as `what` says.
+inline void require_bands(const char* what, std::size_t bands, const sim::RaysView& rays) {
+  if (std::max<std::size_t>(1, bands) != 1 + rays.further_powers.size())
+    throw std::invalid_argument(std::string(what) + " is " + std::to_string(bands) + ", but the rays have " +
+                                std::to_string(1 + rays.further_powers.size()));
+}
+
 /// Into the caller's arrays, those that are not null.
 template <class Found>
 void copy_results(const sim::Outcome& outcome, std::size_t discs, Found& found) {

@@ -88,6 +88,11 @@ UnitCosts parsed_costs(std::string_view text) {
   return costs;
 }
 
+/// Time of a test of a ray against a disc over that of the machine of the built-in costs.
+double over_usual(const CostTable& costs) {
+  return costs[Technique::box_tree].disc_test / built_in_unit_costs(costs.engine)[Technique::box_tree].disc_test;
+}
+
 }  // namespace
 
 CostTable built_in_unit_costs(Engine engine) {
@@ -118,9 +123,10 @@ CostTable costs_of_sums(CostTable costs) {
   return costs;
 }
 
-double standard_error_seconds(double hits, bool numbered, const CostTable& costs) {
-  const double usual = built_in_unit_costs(costs.engine)[Technique::box_tree].disc_test;
-  return hits * (numbered ? 9e-9 : 0.9e-9) * costs[Technique::box_tree].disc_test / usual;
+double sums_seconds(const SumsOfSearch& sums, const CostTable& costs) {
+  const double errors = sums.errors ? (sums.numbered ? 9e-9 : 0.9e-9) * sums.hits : 0;
+  const double of_band = 1.1e-9 * sums.rays + 2.4e-9 * sums.hits + 45e-9 * sums.discs * sums.blocks;
+  return (sums.bands * errors + (sums.bands - 1) * of_band) * over_usual(costs);
 }
 
 }  // namespace detp::validate

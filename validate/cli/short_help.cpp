@@ -48,6 +48,7 @@ How
 Until when
   --target-noise E   run until the noise is below, as 5%
   --target-error E   the same of noise and bias together
+  --noise-of NAME    of several bands: whose noise; default: all, of their sum
   --time-limit S     stop after S seconds and show what there is
 Output
   --per-disc FILE    hits and irradiance of each disc, as CSV

@@ -217,10 +217,6 @@ RunAnswer answer(const Job& job, const RunRequest& request, const std::stop_toke
   RunAnswer answer{.request = request, .whole = whole_inputs(request.job, job, job.given.rays)};
   answer.request.costs = costs_for(question, request.costs);
   const auto choose = [&] { return choose_for(request, job, question, answer.request.costs); };
-  if (request.target && job.bands.size() > 1)
-    throw std::invalid_argument(
-        fmt::format("a run until an error takes rays with one power; these have the bands {}: name one by --bands",
-                    fmt::join(job.bands, ", ")));
   if (request.target) {
     const auto missing = [&](const Candidate& candidate) { return missing_in(candidate, request); };
     run_to_target(answer, job, {choose, missing}, stop, progress, ranks);

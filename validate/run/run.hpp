@@ -26,6 +26,7 @@ struct RunTarget {
   ErrorTarget error = {};                      ///< without bias, which is found
   bool total = false;                          ///< of noise and bias together; else of the noise
   sim::FaceNames faces = {};                   ///< whose samples the error is of; none: all
+  std::optional<std::string> band = {};        ///< of several: whose error it is; none: that of their sum
   std::optional<std::string> checkpoint = {};  ///< a file that keeps what is found
   bool resume = false;                         ///< from the checkpoint
 };
@@ -142,6 +143,9 @@ struct WrittenRun {
 /// Those of the paper's formulas if they are requested. Else the counts that a pilot predicted, or else the closed form on this workload: the job's, or what
 /// is known of it without measuring. Nothing if the candidate has none, and of other estimators and runs until an error.
 [[nodiscard]] std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer);
+
+/// What standard errors and further bands add to the seconds of a search with these counts.
+[[nodiscard]] double seconds_of_sums(const Job& job, const RunAnswer& answer, const Counts<double>& counts);
 
 /// Of the whole command: of pairs by the better of both forms, of estimators that look at photons by AccuracyCosts and the hits expected of closed forms.
 /// Nothing for backward paths, whose rays are known only by a pilot (`accuracy`), and for runs until an error.

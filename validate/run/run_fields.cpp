@@ -124,9 +124,8 @@ auto predicted_seconds(Total total) {
     const RunRequest& request = answer.request;
     const CostBreakdown search =
         price(counts, request.costs, answer.candidate.technique, sim::useful_threads(answer.threads));
-    const double errors =
-        request.standard_error ? standard_error_seconds(counts.hits, run.job.numbered(), request.costs) : 0;
-    return (total(search) + errors) / static_cast<double>(std::max<std::size_t>(1, answer.run.rank_seconds.size()));
+    return (total(search) + seconds_of_sums(run.job, answer, counts)) /
+           static_cast<double>(std::max<std::size_t>(1, answer.run.rank_seconds.size()));
   });
 }
 
@@ -345,6 +344,13 @@ const Fields<ShownRun>& run_fields() {
       Field<Run>(
           "target", "", "error to reach",
           [](const Run& run) { return run.answer.until ? Json(run.answer.request.target->error.error) : left_out(); })
+          .in_json_alone(),
+      Field<Run>("noise_of", "", "the band whose noise and error these are; all: the sum of all bands",
+                 [](const Run& run) {
+                   return run.answer.until && !run.job.bands.empty()
+                              ? Json(run.answer.request.target->band.value_or("all"))
+                              : left_out();
+                 })
           .in_json_alone(),
       {"noise", "", "of the run: root mean square over the discs by area, relative to the root mean square irradiance",
        of_until([](const UntilAnswer& until) { return until.result.noise.value; })},

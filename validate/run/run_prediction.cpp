@@ -66,6 +66,18 @@ Whole whole_of_estimator(const Job& job, const RunAnswer& answer) {
 
 }  // namespace
 
+double seconds_of_sums(const Job& job, const RunAnswer& answer, const Counts<double>& counts) {
+  const auto blocks = sim::PhotonBlocks::for_discs(job.disc_count());
+  return sums_seconds({.rays = job.given.rays,
+                       .hits = counts.hits,
+                       .discs = static_cast<double>(job.disc_count()),
+                       .blocks = 1 + static_cast<double>(blocks.of(job.independent_photons())),
+                       .bands = static_cast<double>(std::max<std::size_t>(1, job.bands.size())),
+                       .errors = answer.request.standard_error,
+                       .numbered = job.numbered()},
+                      answer.request.costs);
+}
+
 std::optional<Whole> predicted_whole(const Job& job, const RunAnswer& answer, const Workload& workload) {
   const bool by_photons = answer.request.estimator != sim::Estimator::disc && !answer.request.gathers();
   if (by_photons && !answer.until) return whole_of_estimator(job, answer);
@@ -76,6 +88,7 @@ std::optional<Whole> predicted_whole(const Job& job, const RunAnswer& answer, co
   const double pilot = answer.choice ? static_cast<double>(answer.choice->sampled_rays) : 0;
   Whole whole{whole_seconds(answer.whole, search, pilot, answer.threads),
               peak_bytes(answer.whole, counts->bytes_touched)};
+  whole.seconds.search += seconds_of_sums(job, answer, *counts);
   whole.seconds.search *= 1 + answer.request.repeat;
   return whole;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
@@ -29,35 +30,61 @@ bool has_bias(const Job& job) {
   return job.scene && !job.rays_from_file && job.field == sim::Field::photons && !job.scene->mesh.triangles.empty();
 }
 
-/// The samples of a job's discs in place of its scene's, as long as this lives.
-class SamplesOfDiscs {
+/// The band whose error ends the run; none: their sum, or there is only one.
+BandInQuestion band_of(const RunTarget& target, const Job& job) {
+  if (!target.band) {
+    if (target.total && job.bands.size() > 1 && has_bias(job))
+      throw std::invalid_argument(
+          fmt::format("bias in a scene is found in one band: give --noise-of one of {}", fmt::join(job.bands, ", ")));
+    return std::nullopt;
+  }
+  const auto named = std::ranges::find(job.bands, *target.band);
+  if (job.bands.empty())
+    throw std::invalid_argument("--noise-of names a band of powers, and there is one without a name");
+  if (named == job.bands.end())
+    throw std::invalid_argument(fmt::format("--noise-of: there is no band {}; there are {}, and all for their sum",
+                                            detp::quoted(*target.band), fmt::join(job.bands, ", ")));
+  return static_cast<std::size_t>(named - job.bands.begin());
+}
+
+/// A job's scene with the samples of its discs, in one of its bands, as long as this lives.
+class SceneOfDiscs {
  public:
-  explicit SamplesOfDiscs(const Job& job) : scene_(*job.scene), overshoot_(job.scene->overshoot) {
+  SceneOfDiscs(const Job& job, BandInQuestion band)
+      : scene_(*job.scene), overshoot_(scene_.overshoot), rgb_(scene_.rgb), materials_(scene_.mesh.materials) {
+    if (rgb_ && band) {
+      scene_.mesh.materials.take_band(static_cast<int>(*band));
+      scene_.rgb = false;
+    }
     samples_.swap(scene_.samples);
     for (const sim::Disc& disc : job.discs) scene_.samples.push_back({disc.centre, disc.normal});
   }
-  ~SamplesOfDiscs() {
+  ~SceneOfDiscs() {
     samples_.swap(scene_.samples);
     scene_.overshoot = overshoot_;
+    scene_.rgb = rgb_;
+    scene_.mesh.materials = std::move(materials_);
   }
-  SamplesOfDiscs(const SamplesOfDiscs&) = delete;
-  SamplesOfDiscs& operator=(const SamplesOfDiscs&) = delete;
+  SceneOfDiscs(const SceneOfDiscs&) = delete;
+  SceneOfDiscs& operator=(const SceneOfDiscs&) = delete;
 
  private:
   sim::Scene& scene_;
   double overshoot_;
+  bool rgb_;
+  sim::Materials materials_;
   std::vector<sim::Sample> samples_;
 };
 
 /// Bias of the estimator at the job's discs, from pilots that also try smaller radii. They are repeated with four times the rays and paths, up
 /// to `most_rays`, until half the width of the bias's interval is at most a quarter of the target.
 BiasEstimate bias_of(const Job& job, sim::Estimator estimator, double target, double most_rays, int threads,
-                     const std::vector<double>& weights, const std::stop_token& stop) {
+                     const std::vector<double>& weights, BandInQuestion band, const std::stop_token& stop) {
   constexpr double enough = 0.25;
   const double radius = job.given.disc_radius;
   std::vector<double> relative;
   for (const sim::Disc& disc : job.discs) relative.push_back(disc.radius / radius);
-  const SamplesOfDiscs samples(job);
+  const SceneOfDiscs in_scene(job, band);
   PilotMaker pilots(*job.scene, {.estimators = {estimator},
                                  .radii = {radius / 4, radius / 2, radius},
                                  .relative = relative,
@@ -88,20 +115,20 @@ BiasEstimate bias_of(const Job& job, sim::Estimator estimator, double target, do
 /// Photons of a job's rays, divided among so many runs by their numbers; of more rays than `most` only some of the photons.
 std::vector<sim::Paths> runs_of_photons(const Job& job, std::uint64_t runs, std::size_t most) {
   const std::uint64_t step = runs * (job.rays.size() / most + 1);
+  const sim::PathRays rays = job.paths();
   std::vector<sim::Paths> all(runs);
   for (std::size_t i = 0; i < job.rays.size(); ++i) {
     const std::uint64_t photon = job.photons.empty() ? i : job.photons[i];
     if (photon % step >= runs) continue;
-    sim::Paths& own = all[photon % runs];
-    own.rays.push_back(job.rays[i]);
-    own.photons.push_back(photon);
+    all[photon % runs].add(rays, i, photon);
   }
   return all;
 }
 
 /// Bias of discs by half the radius with the same rays, where there is no scene to judge by; nothing if no ray meets a disc.
 std::optional<BiasEstimate> bias_by_radii(const Job& job, const Candidate& candidate, int threads,
-                                          const std::vector<double>& weights, const std::stop_token& stop) {
+                                          const std::vector<double>& weights, BandInQuestion band,
+                                          const std::stop_token& stop) {
   constexpr std::uint64_t runs = 8;
   constexpr std::size_t most_rays = 2'000'000;
   const sim::Stopwatch watch;
@@ -112,9 +139,9 @@ std::optional<BiasEstimate> bias_by_radii(const Job& job, const Candidate& candi
     for (const bool narrow : {false, true}) {
       const sim::Problem problem =
           sim::make_problem(paths.rays, narrow ? half : job.discs, job.front_facing, threads, stop);
-      sim::Outcome outcome = sim::run(problem, candidate, {.count = false, .stop = stop, .threads = threads});
+      const sim::Outcome outcome = sim::run(problem, candidate, {.count = false, .stop = stop, .threads = threads});
       if (outcome.stopped) throw sim::Stopped("stopped during a pilot");
-      found[narrow ? 1 : 0].push_back(std::move(outcome.irradiance));
+      found[narrow ? 1 : 0].push_back(irradiance_of(outcome, band));
     }
   const auto light = [](const std::vector<double>& run) {
     return std::ranges::any_of(run, [](double e) { return e > 0; });
@@ -141,6 +168,8 @@ Json key_of(const RunRequest& request, const Job& job, double most_rays) {
           {"confidence", target.error.confidence},
           {"limit of rays", most_rays},
           {"standard errors", request.standard_error},
+          {"bands", fmt::format("{}", fmt::join(job.bands, ","))},
+          {"noise of", target.band.value_or("all")},
           {"facing", job.front_facing ? "front" : "any"},
           {"materials", fmt::format("{}", fmt::join(target.faces.materials, ","))},
           {"groups", fmt::format("{}", fmt::join(target.faces.groups, ","))},
@@ -199,6 +228,7 @@ void run_to_target(RunAnswer& answer, const Job& job, const CandidateOfRun& cand
   });
   answer.candidate = chosen.candidate;
   answer.threads = chosen.threads;
+  const BandInQuestion band = band_of(asked, job);
   const auto search_here = [&] {
     sim::RunOptions search{.engine = request.engine, .stop = stop, .threads = answer.threads};
     search.standard_error = request.standard_error;
@@ -206,7 +236,7 @@ void run_to_target(RunAnswer& answer, const Job& job, const CandidateOfRun& cand
   };
   if (ranks != nullptr && ranks->rank() != 0) {
     JobSearch search = search_here();
-    SharedBatches(job, search, stop, ranks).serve();
+    SharedBatches(job, search, stop, ranks, band).serve();
     return;
   }
   constexpr double most_pilot_rays = 4e6;
@@ -214,19 +244,19 @@ void run_to_target(RunAnswer& answer, const Job& job, const CandidateOfRun& cand
   if (asked.faces.empty() && job.scene && std::ranges::find(weights, 0.0) != weights.end())
     until.mirror_share = mirror_share(job.scene->mesh);
   if (asked.total && has_bias(job))
-    until.bias = bias_of(job, request.estimator, target.error, most_pilot_rays, threads, weights, stop);
+    until.bias = bias_of(job, request.estimator, target.error, most_pilot_rays, threads, weights, band, stop);
   else if (asked.total && job.rays_from_file && request.estimator == sim::Estimator::disc)
-    until.bias = bias_by_radii(job, answer.candidate, answer.threads, weights, stop);
+    until.bias = bias_by_radii(job, answer.candidate, answer.threads, weights, band, stop);
   if (until.bias) target.bias_squared = until.bias->squared;
   JobSearch search = search_here();
-  SharedBatches batches(job, search, stop, ranks);
+  SharedBatches batches(job, search, stop, ranks, band);
   UntilOptions stages{.most_rays = limit,
                       .first_rays = static_cast<std::uint64_t>(first_rays(static_cast<double>(job.rays.size()))),
                       .most_in_batch = sim::default_block(job.discs.size()),
                       .progress = progress};
   ExecutedUntil before;
   if (saved) {
-    batches.skip(saved->state.batch_count(), saved->state.batches.photons, saved->state.rays);
+    batches.skip(saved->state.batch_count(), saved->state.batches.mean.photons, saved->state.rays);
     stages.resume = std::move(saved->state);
     before = std::move(saved->so_far);
   }
@@ -239,16 +269,10 @@ void run_to_target(RunAnswer& answer, const Job& job, const CandidateOfRun& cand
       execute_until([&](std::uint64_t rays, std::uint64_t following) { return batches.next(rays, following); }, weights,
                     target, stages, std::move(before), save);
   if (found.result.reason == StopReason::time) batches.roll_call();
+  found.fill_outcome(powers_add_up(job) ? found.result.photons : 1);
   sim::Outcome& outcome = answer.run.outcome = std::move(found.outcome);
-  outcome.irradiance = std::move(found.result.irradiance);
-  outcome.hits.resize(job.discs.size());  // none, if the run was stopped in its first batch
-  for (const sim::PowerError& error : found.errors.of(outcome.irradiance, found.result.photons)) {
-    outcome.standard_error.push_back(error.standard_error);
-    outcome.upper_bound.push_back(error.upper_bound);
-  }
-  if (powers_add_up(job))
-    for (auto* values : {&outcome.irradiance, &outcome.standard_error, &outcome.upper_bound})
-      for (double& value : *values) value *= found.result.photons;
+  if (found.bands.empty())
+    sim::resize_results(job.discs.size(), false, outcome, std::max<std::size_t>(1, job.bands.size()));
   outcome.seconds.order += search.built().seconds.order;
   outcome.seconds.build += search.built().seconds.build;
   outcome.progress = {found.result.rays, std::max(found.result.rays, static_cast<std::uint64_t>(limit)), "rays"};

@@ -15,13 +15,13 @@ double largest_of(double sum, double squares, double count) {
 
 }  // namespace
 
-void BatchErrors::add(const Batch& batch, const sim::Outcome& found_batch) {
+void BatchErrors::add(const sim::BandResults& batch, std::span<const std::uint64_t> hits, double photons) {
   const std::size_t discs = batch.irradiance.size();
   if (empty()) {
     state_.photons.resize(discs);
     for (auto* values : {&state_.squares, &state_.largest, &state_.heaviest, &state_.unhit}) values->resize(discs);
   }
-  if (const double most = std::ranges::max(batch.irradiance) * batch.photons;
+  if (const double most = std::ranges::max(batch.irradiance) * photons;
       most > 0 && std::ranges::none_of(state_.squares, [](double square) { return square > 0; }))
     state_.unit = -std::ilogb(most);
   const auto in_units = [&](double x) { return std::ldexp(x, state_.unit); };
@@ -29,26 +29,24 @@ void BatchErrors::add(const Batch& batch, const sim::Outcome& found_batch) {
   double ratio = 1;
   for (std::size_t i = 0; state_.most > 0 && i < discs; ++i)
     if (!(batch.irradiance[i] > 0) && state_.unhit[i] > 0) {
-      ratio =
-          sim::heaviest_of_bound(in_units(batch.photons * found_batch.upper_bound[i]), 0) / in_units(state_.unhit[i]);
+      ratio = sim::heaviest_of_bound(in_units(photons * batch.upper_bound[i]), 0) / in_units(state_.unhit[i]);
       break;
     }
   for (std::size_t i = 0; i < discs; ++i) {
-    const sim::DiscResult found{found_batch.hits[i], batch.irradiance[i], found_batch.standard_error[i],
-                                found_batch.upper_bound[i]};
-    const double sum = batch.photons * found.irradiance;
+    const sim::DiscResult found{hits[i], batch.irradiance[i], batch.standard_error[i], batch.upper_bound[i]};
+    const double sum = photons * found.irradiance;
     const bool one = !(found.standard_error < sim::unbounded);
     double square = 0;
     if (sum > 0) {
       const double whole = std::pow(in_units(sum), 2);
-      const double error = one ? 0 : std::pow(in_units(batch.photons * found.standard_error), 2);
+      const double error = one ? 0 : std::pow(in_units(photons * found.standard_error), 2);
       // as sim::finish, backwards
-      square = one ? whole : error * (batch.photons - 1) / batch.photons + whole / batch.photons;
+      square = one ? whole : error * (photons - 1) / photons + whole / photons;
       state_.squares[i] += square;
       state_.photons[i] = std::min(2, state_.photons[i] + (one ? 1 : 2));
     }
     if (!is_weak(found) || !std::isfinite(found.upper_bound)) continue;
-    const double above = in_units(batch.photons * (found.upper_bound - found.irradiance));
+    const double above = in_units(photons * (found.upper_bound - found.irradiance));
     const double heaviest = sim::heaviest_of_bound(above, square);
     state_.heaviest[i] = std::max(state_.heaviest[i], std::ldexp(heaviest / ratio, -state_.unit));
     if (!(square > 0)) {

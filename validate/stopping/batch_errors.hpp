@@ -1,10 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "detp/sim/search/irradiance.hpp"
-#include "run_until.hpp"
 
 namespace detp::validate {
 
@@ -29,8 +29,8 @@ class BatchErrors {
   [[nodiscard]] const State& state() const { return state_; }
   void set_state(State state) { state_ = std::move(state); }
 
-  /// Hits, errors and bounds of the batch's irradiance.
-  void add(const Batch& batch, const sim::Outcome& found);
+  /// Adds a batch of so many photons: irradiance, errors and bounds in one band, and the hits of all.
+  void add(const sim::BandResults& found, std::span<const std::uint64_t> hits, double photons);
 
   /// Of the irradiance of all batches, of so many photons together. Nothing before the first batch.
   [[nodiscard]] std::vector<sim::PowerError> of(std::span<const double> irradiance, double photons) const;

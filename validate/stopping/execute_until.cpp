@@ -22,6 +22,13 @@ std::span<const T> part(std::span<const T> all, std::size_t first, std::size_t c
   return all.empty() ? all : all.subspan(first, count);
 }
 
+void scale_by(double scale, sim::Outcome& outcome) {
+  for (std::size_t band = 0; band < outcome.bands(); ++band)
+    for (auto* values :
+         {&outcome.band(band).irradiance, &outcome.band(band).standard_error, &outcome.band(band).upper_bound})
+      for (double& value : *values) value *= scale;
+}
+
 }  // namespace
 
 void check(const RayBatch& batch) {
@@ -35,12 +42,36 @@ void check(const RayBatch& batch) {
         fmt::format("a batch has rays of {} photons, more than its {:g} photons", photons, batch.photons));
 }
 
-FoundBatch found_batch(const RayBatch& made, const sim::Outcome& found, double make_seconds) {
+std::vector<double> irradiance_of(const sim::Outcome& found, BandInQuestion band) {
+  if (band && *band >= found.bands())
+    throw std::invalid_argument(fmt::format("band {} of {} is in question", *band + 1, found.bands()));
+  if (band) return found.band(*band).irradiance;
+  std::vector<double> sum = found.irradiance;
+  for (const sim::BandResults& further : found.further)
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += further.irradiance[i];
+  return sum;
+}
+
+FoundBatch found_batch(const RayBatch& made, const sim::Outcome& found, double make_seconds, BandInQuestion band) {
   if (found.stopped) throw sim::Stopped("stopped during a batch");
-  FoundBatch batch{{found.irradiance, made.photons, made.rays.rays.size()}, found, make_seconds, made.light};
-  for (auto* values : {&batch.batch.irradiance, &batch.outcome.standard_error, &batch.outcome.upper_bound})
-    for (double& value : *values) value *= made.scale;
+  FoundBatch batch{{{}, made.photons, made.rays.rays.size()}, found, make_seconds, made.light};
+  scale_by(made.scale, batch.outcome);
+  batch.batch.irradiance = irradiance_of(batch.outcome, band);
   return batch;
+}
+
+void ExecutedUntil::fill_outcome(double scale) {
+  outcome.further.resize(bands.empty() ? 0 : bands.size() - 1);
+  for (std::size_t band = 0; band < bands.size(); ++band) {
+    const BandBatches& batches = bands[band];
+    sim::BandResults& results = outcome.band(band);
+    results.irradiance = batches.irradiance.irradiance();
+    for (const sim::PowerError& error : batches.errors.of(results.irradiance, batches.irradiance.photons)) {
+      results.standard_error.push_back(error.standard_error);
+      results.upper_bound.push_back(error.upper_bound);
+    }
+  }
+  scale_by(scale, outcome);
 }
 
 ExecutedUntil execute_until(const FindBatch& find, std::vector<double> weights, const ErrorTarget& target,
@@ -54,7 +85,15 @@ ExecutedUntil execute_until(const FindBatch& find, std::vector<double> weights, 
     all.make_seconds += found->make_seconds;
     all.light += found->light;
     const sim::Outcome& outcome = found->outcome;
-    if (!outcome.standard_error.empty()) all.errors.add(found->batch, outcome);
+    all.bands.resize(std::max(all.bands.size(), outcome.bands()));
+    if (all.bands.size() != outcome.bands())
+      throw std::invalid_argument(
+          fmt::format("a batch has powers in {} bands, others in {}", outcome.bands(), all.bands.size()));
+    for (std::size_t band = 0; band < outcome.bands(); ++band) {
+      const sim::BandResults& results = outcome.band(band);
+      all.bands[band].irradiance.add(results.irradiance, found->batch.photons);
+      if (!results.standard_error.empty()) all.bands[band].errors.add(results, outcome.hits, found->batch.photons);
+    }
     add_block(outcome, all.outcome);
     all.outcome.hits.resize(outcome.hits.size());
     for (std::size_t disc = 0; disc < outcome.hits.size(); ++disc) all.outcome.hits[disc] += outcome.hits[disc];
@@ -65,7 +104,7 @@ ExecutedUntil execute_until(const FindBatch& find, std::vector<double> weights, 
 }
 
 ExecutedUntil execute_until(const Plan& plan, const NextRays& next, std::vector<double> weights,
-                            const ErrorTarget& target, const UntilOptions& options) {
+                            const ErrorTarget& target, const UntilOptions& options, BandInQuestion band) {
   plan.build();
   sim::SearchScratch scratch;
   const FindBatch find = [&](std::uint64_t rays, std::uint64_t) -> std::optional<FoundBatch> {
@@ -74,7 +113,8 @@ ExecutedUntil execute_until(const Plan& plan, const NextRays& next, std::vector<
     const double make_seconds = watch.seconds();
     if (!made) return std::nullopt;
     check(*made);
-    return found_batch(*made, plan.searcher().search(made->rays, scratch, {.threads = plan.threads()}), make_seconds);
+    return found_batch(*made, plan.searcher().search(made->rays, scratch, {.threads = plan.threads()}), make_seconds,
+                       band);
   };
   return execute_until(find, std::move(weights), target, options);
 }
@@ -98,15 +138,17 @@ std::optional<RayBatch> StoredBatches::next(std::uint64_t rays) {
   return batch;
 }
 
-RayBatch StoredBatches::in_order(std::uint64_t rays) {
+RayBatch StoredBatches::in_order(std::uint64_t wanted) {
   const std::size_t size = all_.rays.size();
   const std::size_t first = given_;
-  std::size_t end = first + static_cast<std::size_t>(std::min<std::uint64_t>(rays, size - first));
+  std::size_t end = first + static_cast<std::size_t>(std::min<std::uint64_t>(wanted, size - first));
   while (end < size && photon(end) == photon(end - 1)) ++end;
   const std::size_t count = end - first;
-  return {{all_.rays.subspan(first, count), part(all_.photons, first, count), part(all_.landings, first, count),
-           photon(end), part(all_.triangles, first, count)},
-          static_cast<double>(photon(end) - (first == 0 ? 0 : photon(first)))};
+  sim::PathRays rays(all_.rays.subspan(first, count), part(all_.photons, first, count),
+                     part(all_.landings, first, count), photon(end), part(all_.triangles, first, count));
+  const std::size_t further = all_.further.bands;
+  rays.further = {part(all_.further.values, first * further, count * further), further};
+  return {rays, static_cast<double>(photon(end) - (first == 0 ? 0 : photon(first)))};
 }
 
 RayBatch StoredBatches::drawn(std::uint64_t rays) {
@@ -118,10 +160,7 @@ RayBatch StoredBatches::drawn(std::uint64_t rays) {
     if (!all_.photons.empty())
       ray = static_cast<std::size_t>(std::ranges::lower_bound(all_.photons, drawn) - all_.photons.begin());
     for (; ray < all_.rays.size() && photon(ray) == drawn; ++ray) {
-      batch_.rays.push_back(all_.rays[ray]);
-      if (!all_.photons.empty()) batch_.photons.push_back(photons);
-      if (!all_.landings.empty()) batch_.landings.push_back(all_.landings[ray]);
-      if (!all_.triangles.empty()) batch_.triangles.push_back(all_.triangles[ray]);
+      batch_.add(all_, ray, photons);
     }
     ++photons;
   }

@@ -51,8 +51,8 @@ using NextRays = std::function<std::optional<RayBatch>(std::uint64_t rays)>;
 
 /// A batch whose rays have been searched.
 struct FoundBatch {
-  Batch batch;
-  sim::Outcome outcome;     ///< its irradiance is that of the rays, errors and bounds are those of the batch
+  Batch batch;              ///< its irradiance is that in question
+  sim::Outcome outcome;     ///< in all bands, as if the batch were all photons
   double make_seconds = 0;  ///< for making the rays
   sim::LightLedger light = {};
 };
@@ -60,15 +60,31 @@ struct FoundBatch {
 /// As NextBatch.
 using FindBatch = std::function<std::optional<FoundBatch>(std::uint64_t rays, std::uint64_t following)>;
 
+/// The irradiance whose noise is in question: of a band; none: the sum of all.
+using BandInQuestion = std::optional<std::size_t>;
+
+/// Throws std::invalid_argument for a band that the outcome does not have.
+[[nodiscard]] std::vector<double> irradiance_of(const sim::Outcome& found, BandInQuestion band);
+
 /// The irradiance of rays that a search has found.
-[[nodiscard]] FoundBatch found_batch(const RayBatch& made, const sim::Outcome& found, double make_seconds);
+[[nodiscard]] FoundBatch found_batch(const RayBatch& made, const sim::Outcome& found, double make_seconds,
+                                     BandInQuestion band = {});
+
+/// What batches bring in one band.
+struct BandBatches {
+  BatchMean irradiance;
+  BatchErrors errors = {};  ///< empty unless the searches have standard errors
+};
 
 struct ExecutedUntil {
-  UntilResult result;
-  sim::Outcome outcome;         ///< hits, counts and seconds of all batches; no irradiance
-  BatchErrors errors = {};      ///< empty unless the searches have standard errors
-  double make_seconds = 0;      ///< for making the rays
-  sim::LightLedger light = {};  ///< of all batches
+  UntilResult result;                   ///< its irradiance is that in question
+  sim::Outcome outcome;                 ///< hits, counts and seconds of all batches; no irradiance
+  std::vector<BandBatches> bands = {};  ///< empty before the first batch
+  double make_seconds = 0;              ///< for making the rays
+  sim::LightLedger light = {};          ///< of all batches
+
+  /// Irradiance, errors and bounds in all bands, into `outcome`. `scale`: of all of them.
+  void fill_outcome(double scale = 1);
 };
 
 /// Called after each batch, and when a stop request ends the run, with what a run needs to go on from there: the state, which is copied when asked for, and the outcome so far.
@@ -82,7 +98,8 @@ using SaveExecuted = std::function<void(const std::function<UntilState()>& state
 
 /// The same with a plan's technique and index, on its threads.
 [[nodiscard]] ExecutedUntil execute_until(const Plan& plan, const NextRays& next, std::vector<double> weights,
-                                          const ErrorTarget& target, const UntilOptions& options = {});
+                                          const ErrorTarget& target, const UntilOptions& options = {},
+                                          BandInQuestion band = {});
 
 /// Gives rays in memory batch by batch: in their order, not copied, or the photons in random order.
 class StoredBatches {

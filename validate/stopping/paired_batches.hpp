@@ -15,6 +15,19 @@ struct NoiseInterval {
   double high = 0;
 };
 
+/// Mean of an irradiance over batches, by their photons.
+struct BatchMean {
+  /// Irradiance is in units of 2^unit, so that fourth powers neither overflow nor vanish: of extreme powers alone, else 0.
+  int unit = 0;
+  std::vector<double> sums;  ///< of irradiance times photons
+  double photons = 0;
+
+  /// Throws std::invalid_argument for a value that is not finite, and unless photons > 0.
+  void add(std::span<const double> irradiance, double of_photons);
+  /// 0 before the first batch.
+  [[nodiscard]] std::vector<double> irradiance() const;
+};
+
 /// Sums the irradiance over batches of whole photons, and finds its noise from the differences of pairs of batches:
 ///
 ///     δ_ji = (x_1i - x_2i) √(n₁n₂/(n₁ + n₂))        Y_j = Σ_i w_i δ_ji²        of pair j; pairs are independent
@@ -37,12 +50,9 @@ class PairedBatches {
  public:
   /// All that is known of the batches so far.
   struct State {
-    /// Irradiance is kept in units of 2^unit, so that fourth powers neither overflow nor vanish: of extreme powers alone, else 0.
-    int unit = 0;
-    std::vector<double> sums;     ///< of irradiance times photons
-    std::vector<double> pending;  ///< first batch of a pair
-    double pending_photons = 0;   ///< 0: none
-    double photons = 0;
+    BatchMean mean;
+    std::vector<double> pending;              ///< first batch of a pair, in units of the mean
+    double pending_photons = 0;               ///< 0: none
     std::vector<double> pairs;                ///< Y_j
     std::deque<std::vector<double>> earlier;  ///< δ of the last pairs
     double products_of_squares = 0;           ///< Σ Y_j Y_k
@@ -60,9 +70,8 @@ class PairedBatches {
   /// std::invalid_argument for other than one value for each disc, for one that is not finite, and unless photons > 0.
   void add(std::span<const double> irradiance, double photons);
 
-  /// Mean over all batches by their photons; 0 before the first.
-  [[nodiscard]] std::vector<double> irradiance() const;
-  [[nodiscard]] double photons() const { return state_.photons; }
+  [[nodiscard]] std::vector<double> irradiance() const { return state_.mean.irradiance(); }
+  [[nodiscard]] double photons() const { return state_.mean.photons; }
   [[nodiscard]] std::size_t pairs() const { return state_.pairs.size(); }
   /// B², not below 0; beyond 1e308 infinite.
   [[nodiscard]] double mean_square() const;
@@ -75,8 +84,6 @@ class PairedBatches {
   [[nodiscard]] double photons_for(double noise, double confidence) const;
 
  private:
-  /// Sets the unit by the first irradiance that is not 0.
-  void settle_unit(std::span<const double> irradiance);
   [[nodiscard]] double mean_square_in_units() const;
   [[nodiscard]] double variance() const;          ///< σ², in units
   [[nodiscard]] double discs_freedom() const;     ///< ν

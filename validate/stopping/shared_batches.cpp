@@ -15,8 +15,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Vectors, cull, test)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SphereCounts, rebuilds, tests, listed)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Batches, count, rays, sum, squares)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Phases, prepare, order, build, search)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Outcome, hits, total_hits, counts, vectors, spheres, batches, seconds,
-                                   standard_error, upper_bound)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BandResults, irradiance, standard_error, upper_bound)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Outcome, hits, total_hits, counts, vectors, spheres, batches, seconds, irradiance,
+                                   standard_error, upper_bound, further)
 }  // namespace detp::sim
 
 namespace detp::validate {
@@ -33,7 +34,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BatchTask, batch, made, rays)
 
 }  // namespace
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairedBatches::State, unit, sums, pending, pending_photons, photons, pairs, earlier,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BatchMean, unit, sums, photons)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairedBatches::State, mean, pending, pending_photons, pairs, earlier,
                                    products_of_squares, squares_of_products)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UntilState, batches, rays, tests, looks, stops, stage_rays, stage_is_test,
                                    stage_is_last, stage_batches)
@@ -42,7 +44,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BatchErrors::State, unit, squares, largest, h
 void to_json(nlohmann::json& json, const BatchErrors& errors) { json = errors.state(); }
 void from_json(const nlohmann::json& json, BatchErrors& errors) { errors.set_state(json.get<BatchErrors::State>()); }
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ExecutedUntil, outcome, errors, make_seconds, light)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BandBatches, irradiance, errors)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ExecutedUntil, outcome, bands, make_seconds, light)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Batch, irradiance, photons, rays)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FoundBatch, batch, outcome, make_seconds, light)
 
@@ -65,8 +68,12 @@ std::string bytes_of(const FoundBatch& found) { return json_bytes(found); }
 
 FoundBatch found_batch_of(const std::string& bytes) { return from_json_bytes<FoundBatch>(bytes); }
 
-SharedBatches::SharedBatches(const Job& job, JobSearch& search, std::stop_token stop, sim::Ranks* ranks)
-    : search_(search), rays_(job, std::move(stop)), work_([this](const std::string& task) { return find(task); }) {
+SharedBatches::SharedBatches(const Job& job, JobSearch& search, std::stop_token stop, sim::Ranks* ranks,
+                             BandInQuestion band)
+    : search_(search),
+      rays_(job, std::move(stop)),
+      band_(band),
+      work_([this](const std::string& task) { return find(task); }) {
   if (ranks == nullptr) return;
   at_once_ = static_cast<std::size_t>(ranks->count());
   farm_.emplace(*ranks, work_);
@@ -92,7 +99,7 @@ std::optional<FoundBatch> SharedBatches::next_here(std::uint64_t rays) {
   const std::optional<RayBatch> made = rays_.next(rays);
   const double make_seconds = watch.seconds();
   if (!made) return std::nullopt;
-  return found_batch(*made, search_(made->rays), make_seconds);
+  return found_batch(*made, search_(made->rays), make_seconds, band_);
 }
 
 void SharedBatches::roll_call() {
@@ -105,7 +112,7 @@ std::string SharedBatches::find(const std::string& task) {
   const sim::Stopwatch watch;
   const RayBatch made = rays_.at({one.batch, one.made}, one.rays);
   const double make_seconds = watch.seconds();
-  return bytes_of(found_batch(made, search_(made.rays), make_seconds));
+  return bytes_of(found_batch(made, search_(made.rays), make_seconds, band_));
 }
 
 }  // namespace detp::validate

@@ -31,7 +31,7 @@ struct SavedRun {
 class SharedBatches {
  public:
   /// Keeps references to job and search, which are the same on all ranks. `ranks`: null for this process alone.
-  SharedBatches(const Job& job, JobSearch& search, std::stop_token stop, sim::Ranks* ranks);
+  SharedBatches(const Job& job, JobSearch& search, std::stop_token stop, sim::Ranks* ranks, BandInQuestion band = {});
 
   /// As JobBatches.
   void skip(std::uint64_t batches, double photons, std::uint64_t rays) { rays_.skip(batches, photons, rays); }
@@ -48,6 +48,7 @@ class SharedBatches {
 
   JobSearch& search_;
   JobBatches rays_;
+  BandInQuestion band_;
   std::size_t at_once_ = 1;
   std::deque<FoundBatch> ahead_;
   sim::Farm::Work work_;

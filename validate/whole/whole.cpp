@@ -40,6 +40,7 @@ WholeInputs whole_inputs(const JobRequest& request, const Job& job, double rays)
                      .discs = static_cast<double>(job.disc_count()),
                      .rays = rays,
                      .rays_in_memory = rays,
+                     .bands = static_cast<double>(std::max<std::size_t>(1, job.bands.size())),
                      .traced = job.field == sim::Field::photons && !job.rays_from_file && !job.without_rays,
                      .from_file = job.rays_from_file,
                      .piece_seconds = job.surface.piece_seconds};
@@ -72,8 +73,8 @@ double peak_bytes(const WholeInputs& inputs, double bytes_touched) {
   constexpr double program = 19e6;
   constexpr double triangle = 330;  // mesh, vertices, and what traces photons
   constexpr double disc = 112;      // with its sample
-  constexpr double ray = sizeof(sim::Ray);
-  constexpr double piece = ray + 20;     // with photon, landing and triangle
+  const double ray = static_cast<double>(sim::bytes_of_ray_in(static_cast<std::size_t>(inputs.bands)));
+  const double piece = ray + 20;         // with photon, landing and triangle
   constexpr double traced_beside = 150;  // of pieces that are traced before they are in their place
   constexpr double most_beside = 0x1p18;
   // Of a ray of a block that is searched: its lists, in large pages, which few levels of a small index fill.

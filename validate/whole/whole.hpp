@@ -33,6 +33,7 @@ struct WholeInputs {
   double discs = 0;
   double rays = 0;
   double rays_in_memory = 0;  ///< at a time
+  double bands = 1;           ///< of powers
   bool traced = false;        ///< rays are photon paths, traced here
   bool from_file = false;
   double piece_seconds = 0;  ///< to trace a piece on one thread, as sim::SurfaceFacts

@@ -51,6 +51,7 @@ bool reset_peak_memory() {
 struct DiscsAndRays {
   std::vector<Disc> discs;
   std::vector<Ray> rays;
+  std::vector<double> further = {};  ///< powers in further bands
 };
 
 DiscsAndRays lines_through(std::vector<Disc> discs, std::size_t rays) {
@@ -71,6 +72,13 @@ DiscsAndRays cut(DiscsAndRays given, double length) {
 DiscsAndRays lines() { return lines_through(uniform_discs(Body::cube, 2, 150'000, 0.01, 1), 100'000); }
 
 DiscsAndRays segments() { return cut(lines(), 0.3); }
+
+/// In nine bands.
+DiscsAndRays lines_in_bands() {
+  DiscsAndRays given = lines();
+  for (std::size_t i = 0; i < 8 * given.rays.size(); ++i) given.further.push_back(1.0 + static_cast<double>(i % 3));
+  return given;
+}
 
 /// For techniques whose memory does not depend on the number of rays.
 DiscsAndRays fewer_lines() { return lines_through(uniform_discs(Body::cube, 2, 150'000, 0.01, 1), 20'000); }
@@ -120,7 +128,9 @@ void warm_up(const Candidate& candidate, const RunOptions& options) {
 Measured measure(const Case& each) {
   warm_up(each.candidate, each.options);
   const DiscsAndRays given = each.make();
-  const Problem problem = make_problem(given.rays, given.discs);
+  PathRays rays(given.rays);
+  rays.further = {given.further, given.further.size() / given.rays.size()};
+  const Problem problem = make_problem(rays, given.discs);
   malloc_trim(0);
   reset_peak_memory();
   const double before = status("VmRSS");
@@ -193,6 +203,8 @@ std::vector<Case> cases() {
     list.push_back({candidate, few_lines, "few lines, plain", plain});
   }
   list.push_back({{Technique::box_tree, BoxTreeParameters{4, 16}}, segments, "standard errors", errors});
+  for (const RunOptions& options : {errors, RunOptions{.count = false, .threads = 1}})
+    list.push_back({{Technique::box_tree, BoxTreeParameters{4, 16}}, lines_in_bands, "nine bands", options});
   list.push_back({{Technique::photon_map, PhotonMapParameters{}}, many_segments, "many segments"});
   list.push_back({{Technique::photon_map, PhotonMapParameters{}}, many_segments, "pairs", pairs});
   return list;

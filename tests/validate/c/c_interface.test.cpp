@@ -339,6 +339,37 @@ TEST_SUITE("c interface") {
     few.most = 1;
     REQUIRE(detp_search_until(plan, next, &few, &closer, nullptr, nullptr, &best, &error) == DETP_OK);
     CHECK(best.reason == DETP_NO_MORE_RAYS);
+    // In two bands, of which the second is twice the first: each as in a search of it alone.
+    struct TwoBands {
+      Lamp lamp;
+      std::vector<double> powers;
+      detp_numbers further{};
+    } two;
+    const auto next_of_two = [](void* user, std::uint64_t wanted, detp_rays* rays, double* photons, double* scale) {
+      TwoBands& one = *static_cast<TwoBands*>(user);
+      const int answer = decltype(next){}(&one.lamp, wanted, rays, photons, scale);
+      one.powers.assign(wanted, 2);
+      one.further = {one.powers.data(), sizeof(double), DETP_DOUBLE, 0};
+      rays->further_powers = &one.further;
+      rays->further_bands = 1;
+      return answer;
+    };
+    std::vector<double> rows(1000);
+    detp_estimate in_bands = DETP_INIT(detp_estimate);
+    in_bands.irradiance = rows.data();
+    in_bands.bands = 2;
+    detp_target of_second = target;
+    of_second.noise_of = 2;
+    REQUIRE(detp_search_until(plan, next_of_two, &two, &of_second, nullptr, nullptr, &in_bands, &error) == DETP_OK);
+    CHECK(in_bands.noise == estimate.noise);
+    CHECK(in_bands.rays == estimate.rays);
+    for (std::size_t i = 0; i < 500; ++i) {
+      REQUIRE(rows[2 * i] == irradiance[i]);
+      REQUIRE(rows[2 * i + 1] == 2 * irradiance[i]);
+    }
+    of_second.noise_of = 3;
+    CHECK(detp_search_until(plan, next_of_two, &two, &of_second, nullptr, nullptr, &in_bands, &error) == DETP_INVALID);
+    CHECK(detp_search_until(plan, next, &lamp, &closer, nullptr, nullptr, &in_bands, &error) == DETP_INVALID);
     target.noise = 2;
     CHECK(detp_search_until(plan, next, &lamp, &target, nullptr, nullptr, &estimate, &error) == DETP_INVALID);
     CHECK(detp_search_until(plan, nullptr, &lamp, &closer, nullptr, nullptr, &estimate, &error) == DETP_INVALID);

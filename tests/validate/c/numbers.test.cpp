@@ -145,6 +145,14 @@ TEST_SUITE("c interface") {
     CHECK(std::abs(std::hypot(view.normals[0], view.normals[1], view.normals[2]) - 1) < 1e-12);
     detp_run_free(&run);
     CHECK(run == nullptr);
+    const char* const rgb[] = {"@cornell", "--rays", "5000", "--samples", "50", "--bands", "rgb"};
+    REQUIRE_MESSAGE(detp_run_create(rgb, std::size(rgb), nullptr, nullptr, &run, &error) == DETP_OK, error.text);
+    REQUIRE(detp_run_look(run, &view, &error) == DETP_OK);
+    REQUIRE(view.bands == 3);
+    double blue = 0;
+    for (std::size_t disc = 0; disc < view.discs; ++disc) blue += view.irradiance[3 * disc + 2];
+    CHECK(blue / static_cast<double>(view.discs) == nlohmann::json::parse(view.json)["mean_irradiance"]["b"]);
+    detp_run_free(&run);
     const char* const rows[] = {"@cornell", "--rays", "1000,2000"};
     CHECK(detp_run_create(rows, std::size(rows), nullptr, nullptr, &run, &error) == DETP_INVALID);
     CHECK(detp_run_look(nullptr, &view, &error) == DETP_INVALID);

@@ -161,7 +161,8 @@ TEST_SUITE("claims") {
     const Columns columns = validate_columns();
     const std::vector<Json> rows = validate_rows(found);
     REQUIRE(rows.size() == 5);
-    for (const auto& [name, value] : rows.front().items()) {
+    for (const auto& [column, value] : rows.front().items()) {
+      const std::string& name = column;
       CAPTURE(name);
       CHECK(std::ranges::find(columns, name) != columns.end());
     }

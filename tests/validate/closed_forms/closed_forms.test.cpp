@@ -53,7 +53,8 @@ TEST_SUITE("fields") {
       const std::vector<Json> rows = cells_of(request, answer(request));
       CHECK(rows.front().contains("total_time"));
       CHECK(rows.front().contains("nearest_for_error"));
-      for (const auto& [name, value] : rows.front().items()) {
+      for (const auto& [column, value] : rows.front().items()) {
+        const std::string& name = column;
         CAPTURE(name);
         const bool is_parameter = find_parameter(technique, name) != nullptr || name == "fan_out";
         CHECK((is_parameter || std::ranges::find(all, name) != all.end()));

@@ -164,7 +164,7 @@ TEST_SUITE("stopping") {
       BatchErrors errors;
       while (const auto batch = stored.next(1000)) {
         const FoundBatch found = found_batch(*batch, search(batch->rays), 0);
-        errors.add(found.batch, found.outcome);
+        errors.add(found.outcome, found.outcome.hits, found.batch.photons);
       }
       const auto photons = static_cast<double>(job.independent_photons());
       const auto sums = errors.of(all.irradiance, photons);
@@ -197,14 +197,14 @@ TEST_SUITE("stopping") {
       CHECK(errors.of({}, 1).empty());
       const double none = sim::unbounded;
       // Each batch has 100 photons; disc 0 is hit once, disc 1 never, disc 2 in two batches.
-      sim::Outcome found_batch;
-      found_batch.hits = {0, 0, 1};
+      sim::BandResults found_batch;
+      found_batch.irradiance = {0, 0, unit};
       found_batch.standard_error = {none, none, none};
       found_batch.upper_bound = {3 * unit, 3 * unit, 4.744 * unit};
-      errors.add({{0, 0, unit}, 100, 100}, found_batch);
-      found_batch.hits = {1, 0, 1};
+      errors.add(found_batch, std::vector<std::uint64_t>{0, 0, 1}, 100);
+      found_batch.irradiance = {unit, 0, unit};
       found_batch.upper_bound = {4.744 * unit, 3 * unit, 4.744 * unit};
-      errors.add({{unit, 0, unit}, 100, 100}, found_batch);
+      errors.add(found_batch, std::vector<std::uint64_t>{1, 0, 1}, 100);
       const auto found = errors.of(std::vector{0.5 * unit, 0.0, unit}, 200);
       CHECK_FALSE(found[0].standard_error < none);
       CHECK(found[0].upper_bound == doctest::Approx(0.5 * unit * 4.744).epsilon(0.01));

@@ -40,6 +40,7 @@ struct RunOptions {
   std::optional<std::string> target_noise;
   std::optional<std::string> target_error;
   std::string confidence = "95%";
+  std::optional<std::string> noise_of;
   validate::RunTarget target;  ///< its faces and checkpoint
   std::optional<std::string> share;
   std::optional<std::string> form;
@@ -54,11 +55,14 @@ std::optional<validate::RunTarget> target_of(const RunOptions& options) {
     if (!target.faces.empty())
       throw std::invalid_argument(
           "--material and --group say of which samples the error is: give --target-noise or --target-error");
+    if (options.noise_of)
+      throw std::invalid_argument("--noise-of says whose error is meant: give --target-noise or --target-error");
     if (target.checkpoint)
       throw std::invalid_argument("--checkpoint keeps one run with --target-noise or --target-error");
     return std::nullopt;
   }
   target.total = options.target_error.has_value();
+  if (options.noise_of != "all") target.band = options.noise_of;
   target.error.confidence = parse_share("--confidence", options.confidence);
   target.error.error = target.total ? parse_share("--target-error", *options.target_error)
                                     : parse_share("--target-noise", *options.target_noise);
@@ -163,6 +167,7 @@ void add_inputs(Json& inputs, const RunRequest& request) {
   inputs["groups"] = target.faces.groups;
   inputs["target_noise"] = target.total ? Json() : Json(target.error.error);
   inputs["target_error"] = target.total ? Json(target.error.error) : Json();
+  if (target.band) inputs["noise_of"] = *target.band;
   if (!request.job.ray_file) inputs["rays"] = request.job.rays.value_or(validate::most_rays_by_default);
 }
 
@@ -295,6 +300,9 @@ Command run_command(CLI::App& program) {
                   "irradiance) is smaller, as 5%; --rays is then the limit (1e9); default: not");
   app->add_option("--target-error", options->target_error,
                   "the same of noise and bias together; the bias comes from a pilot; default: not");
+  app->add_option(
+      "--noise-of", options->noise_of,
+      "with a target and several bands: the band whose error is meant, or all, for their sum; default: all");
   add_face_names(*app, options->target.faces);
   app->add_option("--confidence", options->confidence, "that the noise of this run is smaller; default: 95%");
   app->add_option("--checkpoint", options->target.checkpoint,

@@ -28,19 +28,22 @@ std::string_view how_it_ended(validate::StopReason reason) {
 }
 
 /// The first lines of the text.
-std::string until_text(const RunAnswer& answer, double side) {
+std::string until_text(const validate::Job& job, const RunAnswer& answer) {
   const validate::UntilAnswer& until = *answer.until;
   const validate::UntilResult& result = until.result;
   const validate::ErrorTarget& asked = answer.request.target->error;
-  const std::string target = percent_words(asked.error) + (answer.request.target->total ? " error" : " noise");
+  const std::string of_band = job.bands.empty() ? "" : " of " + answer.request.target->band.value_or("all bands");
+  const std::string target =
+      percent_words(asked.error) + (answer.request.target->total ? " error" : " noise") + of_band;
   std::string text = "answer    ";
   if (result.share_bound)
-    text += fmt::format("no photon met a disc: fewer than {:.2g} of {:.3g} photons do ({} confidence). ",
-                        *result.share_bound * result.photons, result.photons, percent_words(asked.confidence));
+    text += fmt::format("no {} met a disc: fewer than {:.2g} of {:.3g} photons do ({} confidence). ",
+                        job.bands.empty() ? "photon" : "light" + of_band, *result.share_bound * result.photons,
+                        result.photons, percent_words(asked.confidence));
   else
     text +=
-        fmt::format("{} noise, at most {} with {} confidence, after {:.3g} rays ({:.3g} photons) and {:.2g} s. ",
-                    percent_words(result.noise.value), percent_words(result.noise.high),
+        fmt::format("{} noise{}, at most {} with {} confidence, after {:.3g} rays ({:.3g} photons) and {:.2g} s. ",
+                    percent_words(result.noise.value), of_band, percent_words(result.noise.high),
                     percent_words(asked.confidence), static_cast<double>(result.rays), result.photons, until.seconds);
   text += target + std::string(how_it_ended(result.reason)) + " ";
   if (!until.bias) return text + "\n";
@@ -52,11 +55,11 @@ std::string until_text(const RunAnswer& answer, double side) {
                       percent_words(until.error().value), percent_words(until.error().low),
                       percent_words(until.error().high), until.bias->by);
   if (until.bias->squared.mean > asked.error * asked.error)
-    text +=
-        until.bias->radius > 0
-            ? fmt::format(" More rays do not lower it; {} needs a radius of at most {:.3g} ({:.2g} % of the scene).",
-                          percent_words(asked.error), until.bias->radius, 100 * until.bias->radius / side)
-            : " More rays do not lower it, nor does a quarter of the radius: detp accuracy compares estimators.";
+    text += until.bias->radius > 0
+                ? fmt::format(
+                      " More rays do not lower it; {} needs a radius of at most {:.3g} ({:.2g} % of the scene).",
+                      percent_words(asked.error), until.bias->radius, 100 * until.bias->radius / scene_side(job.given))
+                : " More rays do not lower it, nor does a quarter of the radius: detp accuracy compares estimators.";
   return text + "\n";
 }
 
@@ -177,7 +180,7 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Who
                     bool verbose) {
   const validate::Timing& timing = answer.timing;
   std::string text;
-  if (answer.until) text += wrapped(until_text(answer, scene_side(job.given)), screen.text_width(), 10);
+  if (answer.until) text += wrapped(until_text(job, answer), screen.text_width(), 10);
   text += wrapped(describe_given(job, validate::taken_by(job, answer)), screen.text_width(), 10);
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   if (answer.request.estimator != sim::Estimator::disc)

@@ -79,7 +79,7 @@ class Found(_PerDisc):
 class Estimate(_PerDisc):
     """The result of a search until an error."""
 
-    irradiance: Floats  #: (n,)
+    irradiance: Floats  #: (n,), or (n, k) in k bands
     noise: float  #: relative to the root mean square irradiance, over the discs by area
     noise_low: float  #: with the confidence of the target, each end alone
     noise_high: float
@@ -90,7 +90,7 @@ class Estimate(_PerDisc):
     share_bound: Optional[float]
 
     def _columns(self) -> Dict[str, Any]:
-        return {"irradiance": self.irradiance}
+        return by_band({"irradiance": self.irradiance})
 
     def _rows(self) -> List[Tuple[str, object]]:
         return [("noise", f"{self.noise:.3%} ({self.noise_low:.3%} to {self.noise_high:.3%})"),

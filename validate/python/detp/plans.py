@@ -123,20 +123,27 @@ class Plan:
                      counts_of(found.counts) if counts else None)
 
     def search_until(self, next_rays: NextRays, noise: float, *, confidence: float = 0.95, most_rays: float = 1e9,
-                     progress: Optional[Progress] = None) -> Estimate:
+                     bands: int = 1, noise_of: Optional[int] = None, progress: Optional[Progress] = None) -> Estimate:
         """Searches batches of rays until the noise is below the target.
 
         :param next_rays: makes the next rays.
         :param noise: relative to the root mean square irradiance, over the discs by area: 0.05.
         :param confidence: that the noise of this run is smaller.
         :param most_rays: ends the search without the target.
+        :param bands: of the rays' powers.
+        :param noise_of: the number of the band whose noise is meant; None: of the sum of all bands.
 
         Raises ValueError for targets out of range and for malformed rays; what `next_rays` and `progress` raise.
         """
         target = make("detp_target")
         target.noise, target.confidence, target.most_rays = noise, confidence, most_rays
+        if noise_of is not None:
+            if not 0 <= noise_of < bands:
+                raise ValueError(f"noise_of is {noise_of}, but bands are numbered from 0 to {bands - 1}")
+            target.noise_of = 1 + noise_of
         estimate = make("detp_estimate")
-        irradiance = np.empty(self.discs)
+        estimate.bands = bands
+        irradiance = np.empty(self.discs if bands == 1 else (self.discs, bands))
         estimate.irradiance = pointer("double", irradiance)
         long = LongCall(progress)
         kept: List[Batch] = []  # until the next call

@@ -92,9 +92,9 @@ TEST_SUITE("end to end") {
       CAPTURE(line);
       const std::string help = detp(line.substr(0, line.find(' ')) + " --help fields").out;
       const Json answer = result_of(line);
-      for (const auto& [key, value] : answer.items())
-        if (key != "schema" && key != "inputs" && key != "provenance" && key != "stopped")
-          CHECK_MESSAGE(help.find("\n  " + key + " ") != std::string::npos, key);
+      for (const auto& one : answer.items())
+        if (one.key() != "schema" && one.key() != "inputs" && one.key() != "provenance" && one.key() != "stopped")
+          CHECK_MESSAGE(help.find("\n  " + one.key() + " ") != std::string::npos, one.key());
     }
   }
 

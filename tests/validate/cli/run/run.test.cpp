@@ -388,9 +388,10 @@ TEST_SUITE("end to end") {
     const std::string alone[2]{folder.file("r.csv", columns + "power\n" + rows[1]),
                                folder.file("g.csv", columns + "green\n" + rows[2])};
     const auto run = [&](const std::string& rays, const std::string& more, const std::string& per_disc) {
-      return result_of(Arguments{"run", "--discs", discs, "--ray-file", rays, "--standard-error", "--per-disc",
-                                 folder.path(per_disc)} +
-                       words(more));
+      return detp(Arguments{"run", "--discs", discs, "--ray-file", rays, "--standard-error", "--per-disc",
+                            folder.path(per_disc)} +
+                  words(more + " --format json"))
+          .json();
     };
     for (const char* estimator : {"disc", "variable-radius"}) {
       const std::string by = std::string("--estimator ") + estimator;
@@ -412,8 +413,35 @@ TEST_SUITE("end to end") {
     }
     const Finished table = detp(Arguments{"run", "--discs", discs, "--ray-file", both, "--format", "csv"});
     CHECK(table.out.find(",mean_irradiance_r,") != std::string::npos);
-    CHECK(detp(Arguments{"run", "--discs", discs, "--ray-file", both, "--target-noise", "5%"})
-              .err.find("takes rays with one power; these have the bands r, g") != std::string::npos);
+    // A run until an error, which ends with the file's rays: each band as in a run of it alone.
+    const std::string until = "--target-noise 1% --confidence 90%";
+    const Json red = run(alone[0], until, "red");
+    const Json of_red = run(both, until + " --noise-of r", "both");
+    CHECK(of_red.at("noise_of") == "r");
+    for (const char* key : {"noise", "noise_interval", "stopped_because"}) CHECK(of_red.at(key) == red.at(key));
+    CHECK(of_red.at("mean_irradiance").at("r") == red.at("mean_irradiance"));
+    const auto lines = [&](const char* name) { return figures::split(content_of(folder.path(name)), '\n'); };
+    for (std::size_t line = 1; line < 3; ++line) CHECK(lines("both")[line].starts_with(lines("red")[line] + ","));
+    const Json of_sum = run(both, until, "both");
+    CHECK(of_sum.at("noise_of") == "all");
+    CHECK(of_sum.at("noise") != of_red.at("noise"));
+    CHECK(of_sum.at("mean_irradiance").at("r") == red.at("mean_irradiance"));
+    const auto refused = [&](const std::string& more) { return detp(words("run " + more)).err; };
+    CHECK(refused(fmt::format("--discs {} --ray-file {} --target-noise 5% --noise-of blue", discs, both))
+              .find("there is no band \"blue\"; there are r, g, and all for their sum") != std::string::npos);
+    CHECK(refused("@cornell --target-noise 5% --noise-of r").find("there is one without a name") != std::string::npos);
+    CHECK(refused("@cornell --noise-of r").find("give --target-noise or --target-error") != std::string::npos);
+  }
+
+  TEST_CASE("photons in colours: ledgers, and a run until the error of a band") {
+    const Json blue = result_of("run @cornell --bands rgb --samples 100 --target-error 30% --noise-of b");
+    CHECK(blue.at("stopped_because") == "target");
+    CHECK(blue.at("noise_interval")[1].get<double>() < 0.3);
+    const Json grey = result_of("run @cornell --bands rgb --samples 100 --target-noise 30%");
+    CHECK(grey.at("noise_of") == "all");
+    CHECK(grey.at("noise").get<double>() != blue.at("noise").get<double>());
+    CHECK(detp(words("run @cornell --bands rgb --target-error 30%")).err.find("give --noise-of one of r, g, b") !=
+          std::string::npos);
     const Json rgb = result_of("run @cornell --bands rgb --rays 5000 --samples 100");
     CHECK(rgb.at("bands") == Json{"r", "g", "b"});
     CHECK(rgb.at("mean_irradiance").at("b").get<double>() < rgb.at("mean_irradiance").at("r").get<double>());
