@@ -40,16 +40,6 @@ void operator+=(PathSums& all, const PathSums& more) {
   all.lit += more.lit;
 }
 
-/// The scene as it is in one band.
-Scene in_band(const Scene& scene, int band) {
-  Scene one = scene;
-  one.rgb = false;
-  one.mesh.materials.take_band(band);
-  for (Light& light : one.lights)
-    if (kind_of(light) == LightKind::surface) light.flux = emitted_flux(one.mesh);
-  return one;
-}
-
 bool has_light(const Scene& scene) {
   return std::ranges::any_of(scene.lights, [](const Light& light) { return light.flux > 0; });
 }
@@ -120,6 +110,15 @@ class GatherIndex final : public Index {
 };
 
 }  // namespace
+
+Scene in_band(const Scene& scene, int band) {
+  Scene one = scene;
+  one.rgb = false;
+  one.mesh.materials.take_band(band);
+  for (Light& light : one.lights)
+    if (kind_of(light) == LightKind::surface) light.flux = emitted_flux(one.mesh);
+  return one;
+}
 
 Outcome gather(const Problem& problem, const Scene& scene, std::uint64_t paths, std::uint64_t seed,
                const RunOptions& options) {

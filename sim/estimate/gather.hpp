@@ -24,6 +24,9 @@ inline constexpr std::uint64_t paths_by_default = 64;
 [[nodiscard]] std::unique_ptr<Index> prepare_gather(const Scene& scene, std::uint64_t paths, std::uint64_t seed,
                                                     const RunOptions& options);
 
+/// A scene with colours as it is in one of its bands, without colours.
+[[nodiscard]] Scene in_band(const Scene& scene, int band);
+
 /// The same search; of a scene with colours (Scene::rgb) in three bands, one after the other. A band without light is 0.
 [[nodiscard]] Outcome gather(const Problem& problem, const Scene& scene, std::uint64_t paths, std::uint64_t seed,
                              const RunOptions& options);

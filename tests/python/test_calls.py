@@ -129,6 +129,9 @@ class Calls(unittest.TestCase):
         self.assertEqual(detp.gather("@furnace", floor, paths=500).irradiance.tolist(), found.irradiance.tolist())
         self.assertEqual(detp.gather("@furnace", floor, paths=500, front_facing=True).irradiance.tolist(),
                          found.irradiance.tolist())
+        colours = detp.gather("@cornell", detp.Discs([[0.5, 0.01, 0.5]], [[0, 1, 0]], 1), paths=500, rgb=True)
+        self.assertEqual(colours.irradiance.shape, (1, 3))
+        self.assertEqual(list(colours.to_pandas())[:3], ["hits", "irradiance_0", "irradiance_1"])
         missing = detp.gather("@caustic", floor)
         self.assertTrue(0.01 < missing.missed_share < missing.missed_bound < 1)
         self.assertIn("missed", repr(missing))

@@ -254,9 +254,10 @@ typedef struct detp_gather_options {
   int threads;      /* 0: all cores */
   detp_progress progress;
   void *user;
+  int rgb;          /* not 0: in red, green and blue, by the colours of the scene's materials */
 } detp_gather_options;
 
-/* Arrays have an element for each sample, or are null if they are not wanted. */
+/* Arrays have an element for each sample, with options.rgb all but the hits a row of three; or are null if they are not wanted. */
 typedef struct detp_gathered {
   size_t size;
   uint64_t *hits;         /* paths that brought light */

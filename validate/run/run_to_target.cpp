@@ -12,6 +12,7 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/sim/estimate/gather.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/accuracy/accuracy_pilot.hpp"
 #include "detp/validate/base/json.hpp"
@@ -47,32 +48,23 @@ BandInQuestion band_of(const RunTarget& target, const Job& job) {
   return static_cast<std::size_t>(named - job.bands.begin());
 }
 
-/// A job's scene with the samples of its discs, in one of its bands, as long as this lives.
-class SceneOfDiscs {
+/// The samples of discs in place of a scene's, as long as this lives.
+class SamplesOfDiscs {
  public:
-  SceneOfDiscs(const Job& job, BandInQuestion band)
-      : scene_(*job.scene), overshoot_(scene_.overshoot), rgb_(scene_.rgb), materials_(scene_.mesh.materials) {
-    if (rgb_ && band) {
-      scene_.mesh.materials.take_band(static_cast<int>(*band));
-      scene_.rgb = false;
-    }
+  SamplesOfDiscs(sim::Scene& scene, const std::vector<sim::Disc>& discs) : scene_(scene), overshoot_(scene.overshoot) {
     samples_.swap(scene_.samples);
-    for (const sim::Disc& disc : job.discs) scene_.samples.push_back({disc.centre, disc.normal});
+    for (const sim::Disc& disc : discs) scene_.samples.push_back({disc.centre, disc.normal});
   }
-  ~SceneOfDiscs() {
+  ~SamplesOfDiscs() {
     samples_.swap(scene_.samples);
     scene_.overshoot = overshoot_;
-    scene_.rgb = rgb_;
-    scene_.mesh.materials = std::move(materials_);
   }
-  SceneOfDiscs(const SceneOfDiscs&) = delete;
-  SceneOfDiscs& operator=(const SceneOfDiscs&) = delete;
+  SamplesOfDiscs(const SamplesOfDiscs&) = delete;
+  SamplesOfDiscs& operator=(const SamplesOfDiscs&) = delete;
 
  private:
   sim::Scene& scene_;
   double overshoot_;
-  bool rgb_;
-  sim::Materials materials_;
   std::vector<sim::Sample> samples_;
 };
 
@@ -84,15 +76,18 @@ BiasEstimate bias_of(const Job& job, sim::Estimator estimator, double target, do
   const double radius = job.given.disc_radius;
   std::vector<double> relative;
   for (const sim::Disc& disc : job.discs) relative.push_back(disc.radius / radius);
-  const SceneOfDiscs in_scene(job, band);
-  PilotMaker pilots(*job.scene, {.estimators = {estimator},
-                                 .radii = {radius / 4, radius / 2, radius},
-                                 .relative = relative,
-                                 .weights = weights,
-                                 .front_facing = job.front_facing,
-                                 .seed = job.seed + 1,
-                                 .threads = threads,
-                                 .stop = stop});
+  std::optional<sim::Scene> in_colour;
+  if (job.scene->rgb) in_colour = sim::in_band(*job.scene, static_cast<int>(band.value()));
+  sim::Scene& scene = in_colour ? *in_colour : *job.scene;
+  const SamplesOfDiscs samples(scene, job.discs);
+  PilotMaker pilots(scene, {.estimators = {estimator},
+                            .radii = {radius / 4, radius / 2, radius},
+                            .relative = relative,
+                            .weights = weights,
+                            .front_facing = job.front_facing,
+                            .seed = job.seed + 1,
+                            .threads = threads,
+                            .stop = stop});
   BiasEstimate bias;
   AccuracyPilot pilot;
   const auto next = [&](const PilotSize& made) -> std::optional<PilotSize> {

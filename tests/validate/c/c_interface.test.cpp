@@ -259,6 +259,13 @@ TEST_SUITE("c interface") {
     CHECK(std::abs(irradiance[0] - *furnace.known_irradiance) < 4 * errors[0]);
     CHECK(gathered.missed_bound == 0);
     CHECK(gathered.seconds > 0);
+    std::vector<double> rows(3 * discs.size());  // of a grey scene: alike
+    detp_gathered in_colours = DETP_INIT(detp_gathered);
+    in_colours.irradiance = rows.data();
+    options.rgb = 1;
+    REQUIRE(detp_gather("@furnace", &samples, &options, &in_colours, &error) == DETP_OK);
+    for (std::size_t i = 0; i < rows.size(); ++i) CHECK(rows[i] == doctest::Approx(irradiance[i / 3]).epsilon(1e-12));
+    options.rgb = 0;
     REQUIRE(detp_gather("@caustic", &samples, nullptr, &gathered, &error) == DETP_OK);
     CHECK(gathered.missed_share > 0.01);
     CHECK(gathered.missed_bound > gathered.missed_share);
