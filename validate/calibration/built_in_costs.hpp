@@ -35,12 +35,13 @@ struct SumsOfSearch {
 /// What standard errors and further bands add to the time of a search whose powers differ, in seconds. Scaled to the machine of the costs by its
 /// time for a test of a ray against a disc.
 ///
-/// Standard errors, in each band: for each hit 0.9 ns if each ray is a photon of its own, and 9 ns if rays have photon numbers, because a disc's
+/// Standard errors of one band: for each hit 0.9 ns if each ray is a photon of its own, and 9 ns if rays have photon numbers, because a disc's
 /// hits are then brought into the order of the rays. Measured on box trees (one thread, AVX-512, 6.2·10⁶ hits of 50 000 discs: 76 ms without,
 /// 82 and 133 ms with errors).
 ///
-/// Each further band: for each ray its largest power is found, for each hit a power is added, for each disc and block of photons a sum. Fitted to
-/// four workloads on the faces of a cube (validate/tools/band_times.cpp; AMD EPYC, Zen 4, AVX-512); the README of this folder has the errors.
+/// Each further band: for each ray its largest power is found, for each hit a power is added, for each disc and block of photons a sum, with
+/// standard errors likewise squares. Fitted to four workloads on the faces of a cube (validate/tools/band_times.cpp; AMD EPYC, Zen 4, AVX-512);
+/// the README of this folder has the errors.
 [[nodiscard]] double sums_seconds(const SumsOfSearch& sums, const CostTable& costs);
 
 }  // namespace detp::validate

@@ -17,12 +17,11 @@ struct FurtherSums {
   std::size_t bands = 0;
   const double* powers = nullptr;  ///< of the block's rays, a row of `bands` for each
   double* sums = nullptr;          ///< rows of `bands`, for each place and class
-  PhotonSums* photons = nullptr;   ///< as BlockSearch::photons, band by band
-  std::size_t places = 0;          ///< of each band
+  PhotonSums* photons = nullptr;   ///< as BlockSearch::photons, a row of `bands` for each place
   const double* units = nullptr;   ///< as BlockSearch::unit, of each band
 
   [[nodiscard]] PhotonSums& photons_of(std::size_t place, std::size_t band) const {
-    return photons[band * places + place];
+    return photons[place * bands + band];
   }
   [[nodiscard]] double* row(std::size_t place, std::size_t k) const { return sums + (place * classes + k) * bands; }
 };

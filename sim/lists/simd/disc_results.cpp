@@ -102,7 +102,7 @@ DiscResults::DiscResults(const Problem& problem, const DiscTree& tree, const Run
 
 PhotonSums* DiscResults::photons_of(std::size_t place, std::size_t band) {
   if (photons_.empty()) return nullptr;
-  return band == 0 ? &photons_[place] : &further_.photons[(band - 1) * photons_.size() + place];
+  return band == 0 ? &photons_[place] : &further_.photons[place * units_.size() + band - 1];
 }
 
 /// The sums of the block of photons under way.
@@ -191,7 +191,6 @@ BlockSearch DiscResults::begin(const Frame& frame, const Block& rays) {
                       .powers = rays.further_powers(),
                       .sums = further_.sums.data(),
                       .photons = further_.photons.data(),
-                      .places = sums_.size(),
                       .units = units_.data()}};
 }
 
@@ -370,6 +369,24 @@ void DiscResults::store_counted(std::size_t first, std::size_t last, std::size_t
   }
 }
 
+/// What finish_disc would store in further bands of discs first … last - 1, without standard errors and earlier blocks of photons.
+void DiscResults::store_further_sums(std::span<const std::uint32_t> place_of, std::size_t first,
+                                     std::size_t last) const {
+  const std::size_t bands = units_.size();
+  std::array<double, 8> areas{};
+  for (std::size_t disc = first; disc < last; ++disc) {
+    const double radius = problem_.discs()[disc].radius;
+    areas[disc - first] = std::numbers::pi * radius * radius / own_.scale();
+  }
+  for (std::size_t band = 0; band < bands; ++band) {
+    double* const irradiance = outcome_.further[band].irradiance.data();
+    for (std::size_t disc = first; disc < last; ++disc) {
+      const double* const x = &further_.sums[place_of[disc] * classes * bands + band];
+      irradiance[disc] = ((x[0] + x[bands]) + x[2 * bands]) / areas[disc - first];
+    }
+  }
+}
+
 void DiscResults::store_totals() {
   add_counted_hits();
   outcome_.total_hits = found_;
@@ -377,26 +394,27 @@ void DiscResults::store_totals() {
   const bool own = options_.totals == nullptr;
   if (own) resize_results(sums_.size(), !photons_.empty(), outcome_, problem_.bands());
   std::pmr::vector<double> heaviest(options_.memory);
-  for (std::size_t band = 0; band < problem_.bands(); ++band) {
-    const std::span<PhotonSums> photons(photons_.empty() ? nullptr : photons_of(0, band), photons_.size());
-    for (PhotonSums& one : photons) one.close(totals().band(band).unit());
-    heaviest.push_back(heaviest_photon(photons, problem_.largest_power(band)));
-  }
+  for (std::size_t band = 0; band < problem_.bands(); ++band) heaviest.push_back(problem_.largest_power(band));
+  for (std::size_t place = 0; place < photons_.size(); ++place)
+    for (std::size_t band = 0; band < problem_.bands(); ++band) {
+      PhotonSums& photons = *photons_of(place, band);
+      photons.close(band == 0 ? totals().unit() : units_[band - 1]);
+      heaviest[band] = std::max(heaviest[band], photons.largest);
+    }
   // Where nothing hits, the outcome's results are 0 already.
   const auto is_zero = [&](std::size_t place) { return photons_.empty() && sums_[place].hits == 0; };
-  const auto fetch = [&](std::size_t place, std::size_t band) {
+  const auto fetch = [&](std::size_t place, std::size_t) {
     const std::uint32_t disc = tree_.order[place];
-    Totals& all = totals().band(band);
     if (!own) {
-      hwy::Prefetch(&all[disc]);
+      hwy::Prefetch(&totals()[disc]);
       return;
     }
     if (is_zero(place)) return;
-    if (band == 0) hwy::Prefetch(&problem_.discs()[disc].radius);
-    if (band == 0) hwy::Prefetch(&outcome_.hits[disc]);
-    hwy::Prefetch(&outcome_.band(band).irradiance[disc]);
+    hwy::Prefetch(&problem_.discs()[disc].radius);
+    hwy::Prefetch(&outcome_.hits[disc]);
+    hwy::Prefetch(&outcome_.irradiance[disc]);
   };
-  for_each_place(sums_.size(), problem_.bands(), fetch, [&](std::size_t place, std::size_t band) {
+  const auto store = [&](std::size_t place, std::size_t band) {
     const std::uint32_t disc = tree_.order[place];
     if (own && is_zero(place)) return;
     const DiscTotals sums = sums_of(place, band);
@@ -408,6 +426,30 @@ void DiscResults::store_totals() {
     } else {
       all[disc] = sums;
       if (photons != nullptr) all.photon_sums(disc) = *photons;
+    }
+  };
+  if (units_.empty()) return for_each_place(sums_.size(), 1, fetch, store);
+  // With rows of several bands, in the order of the discs: a row is read whole, and the arrays of all bands are written one line after another.
+  std::pmr::vector<std::uint32_t> place_of(sums_.size(), options_.memory);
+  for (std::size_t place = 0; place < sums_.size(); ++place)
+    place_of[tree_.order[place]] = static_cast<std::uint32_t>(place);
+  const bool sums_alone = own && photons_.empty() && totals().block() == 0;
+  constexpr std::size_t rows_in_cache = 8;
+  constexpr std::size_t in_line = 64 / sizeof(double);
+  const std::size_t row = classes * units_.size();
+  sim::parallel_for(ParallelRange(0, sums_.size(), std::size_t{1} << 12), [&](const ParallelRange& part) {
+    for (std::size_t first = part.begin(); first < part.end(); first += rows_in_cache) {
+      for (std::size_t disc = first + rows_in_cache; disc < std::min(part.end(), first + 2 * rows_in_cache); ++disc) {
+        for (std::size_t band = 0; band < row; band += in_line)
+          hwy::Prefetch(&further_.sums[place_of[disc] * row + band]);
+        for (std::size_t band = 0; !photons_.empty() && band < units_.size(); ++band)
+          hwy::Prefetch(&further_.photons[place_of[disc] * units_.size() + band]);
+      }
+      const std::size_t end = std::min(part.end(), first + rows_in_cache);
+      const std::size_t bands = sums_alone ? 1 : problem_.bands();
+      for (std::size_t band = 0; band < bands; ++band)
+        for (std::size_t disc = first; disc < end; ++disc) store(place_of[disc], band);
+      if (sums_alone) store_further_sums(place_of, first, end);
     }
   });
 }

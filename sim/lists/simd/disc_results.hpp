@@ -119,6 +119,7 @@ class DiscResults {
   void store_counted() const;
   [[nodiscard]] std::uint64_t store_counted(std::size_t first, std::size_t last) const;
   void store_counted(std::size_t first, std::size_t last, std::size_t band) const;
+  void store_further_sums(std::span<const std::uint32_t> place_of, std::size_t first, std::size_t last) const;
   void store_totals();
 
   const Problem& problem_;
