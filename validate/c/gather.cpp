@@ -29,7 +29,8 @@ detp_status detp_gather(const char* scene, const detp_discs* discs, const detp_g
     const detp_gather_options own = options != nullptr ? c::known(options, "options") : detp_gather_options{};
     const std::vector<sim::Disc> samples = read_samples(discs);
     c::Watch watch(own.progress, own.user, "reading the scene");
-    const sim::Scene opened = sim::open_scene({.name = &c::given(scene, "scene"), .samples = {}, .rgb = own.rgb != 0}, watch.token());
+    const sim::Scene opened =
+        sim::open_scene({.name = &c::given(scene, "scene"), .samples = {}, .rgb = own.rgb != 0}, watch.token());
     sim::RunOptions wanted{.count = false,
                            .standard_error = ours.standard_error != nullptr || ours.upper_bound != nullptr,
                            .stop = watch.token(),
