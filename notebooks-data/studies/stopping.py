@@ -67,7 +67,7 @@ class Runs:
         if done.returncode not in (0, stopped_by_limit):
             done.check_returncode()
         answer = json.loads(done.stdout)
-        answer["irradiance"] = numpy.loadtxt(self.found, delimiter=",", skiprows=1, usecols=2) / (answer["photons"] if self.lines else 1)
+        answer["irradiance"] = numpy.loadtxt(self.found, delimiter=",", skiprows=1, usecols=10) / (answer["photons"] if self.lines else 1)
         return answer
 
     def to_target(self, target, seed):

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/parallel.hpp"
 #include "file_error.hpp"
 #include "number_text.hpp"
@@ -24,18 +25,18 @@ class CsvReader {
 
   std::size_t read(const TableSink& sink) {
     if (!next_line()) throw FileError(file_.path(), "is empty; expected a header " + known_names());
-    read_header();
+    const bool is_row = read_header();
     for (std::size_t i = 0; i < row_.columns().size(); ++i)
       if (!is_given(i)) row_.set_absent(i);
     std::size_t rows = 0;
     const std::optional<std::uint64_t> begin = file_.rest();
     std::size_t next_pass = rows_of_estimate + 1;  // the number of rows from which on lines are parsed together
-    while (true) {
+    for (bool first = is_row;; first = false) {
       if (rows >= next_pass) {
         rows += read_together(sink);
         next_pass = rows + lines_apart;
       }
-      if (!next_line()) return rows;
+      if (!first && !next_line()) return rows;
       read_row();
       if (rows++ == rows_of_estimate && begin) expect_rows(*begin);
       sink(row_);
@@ -43,6 +44,7 @@ class CsvReader {
   }
 
  private:
+  static constexpr std::size_t unused = SIZE_MAX;  ///< a column of the file that is none of the known
   static constexpr std::size_t rows_of_estimate = 64;
   static constexpr std::size_t lines_apart = 256;  ///< where some are not plain numbers
 
@@ -64,49 +66,107 @@ class CsvReader {
     return std::find(order_.begin(), order_.end(), column) != order_.end();
   }
 
-  /// Goes to the next line that is not blank; false at the end.
+  /// Goes to the next line that is not blank and no comment; false at the end.
   bool next_line() {
-    while (lines_.next())
-      if (!trimmed(lines_.line()).empty()) return true;
+    while (lines_.next()) {
+      const std::string_view text = trimmed(lines_.line());
+      if (text.starts_with('#'))
+        comment_ = trimmed(text.substr(1));
+      else if (!text.empty() && !(order_.empty() && text.starts_with("sep=")))  // a hint for spreadsheets
+        return true;
+    }
     return false;
   }
 
-  static std::size_t fields_in(std::string_view line) {
-    return static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
+  /// The fields of a line, without quotes.
+  [[nodiscard]] std::vector<std::string_view> fields_of(std::string_view line) const {
+    std::vector<std::string_view> fields;
+    if (separator_ == ' ') {
+      for (line = trimmed(line); !line.empty();) fields.push_back(cut_word(line));
+      return fields;
+    }
+    while (true) {
+      const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
+      std::size_t end = line.find(separator_);
+      if (line.substr(first).starts_with('"')) {
+        std::size_t close = line.find('"', first + 1);
+        while (line.substr(std::min(close, line.size())).starts_with("\"\"")) close = line.find('"', close + 2);
+        if (close == std::string_view::npos) lines_.fail("a quote has no end");
+        end = line.find(separator_, close);
+        if (!trimmed(line.substr(close + 1, end == std::string_view::npos ? end : end - close - 1)).empty())
+          lines_.fail("there is text between a quote and the next field");
+        fields.push_back(trimmed(line.substr(first + 1, close - first - 1)));
+      } else {
+        fields.push_back(trimmed(line.substr(0, end)));
+      }
+      if (end == std::string_view::npos) return fields;
+      line.remove_prefix(end + 1);
+    }
   }
 
-  void read_header() {
-    std::vector<std::string> headings;
-    std::string_view line = lines_.line();
-    for (std::size_t fields = fields_in(line); fields > 0; --fields)
-      headings.emplace_back(trimmed(cut_until(line, ",")));
-    row_ = TableRow(file_.path(), choice_(file_.path(), headings));
-    line = lines_.line();
-    for (std::size_t fields = fields_in(line); fields > 0; --fields) {
-      const std::string_view name = trimmed(cut_until(line, ","));
-      const auto known = std::find_if(row_.columns().begin(), row_.columns().end(),
-                                      [name](const TableColumn& column) { return column.name == name; });
-      if (known == row_.columns().end())
-        lines_.fail(fmt::format("unknown column {}; known are {}", detp::quoted(name), known_names()));
-      const auto column = static_cast<std::size_t>(known - row_.columns().begin());
-      if (is_given(column)) lines_.fail(fmt::format("column {} appears twice", name));
-      order_.push_back(column);
+  /// What separates the headings: the first comma, semicolon or tab outside of quotes; else blanks.
+  [[nodiscard]] static char separator_in(std::string_view line) {
+    bool quoted = false;
+    for (const char one : line) {
+      if (one == '"') quoted = !quoted;
+      if (!quoted && (one == ',' || one == ';' || one == '\t')) return one;
     }
-    for (std::size_t i = 0; i < row_.columns().size(); ++i)
-      if (!is_given(i) && !row_.columns()[i].absent)
-        lines_.fail(fmt::format("the header has no column {}{}; known are {}", row_.columns()[i].name,
-                                row_.columns()[i].remedy, known_names()));
+    return ' ';
+  }
+
+  [[nodiscard]] static bool are_numbers(const std::vector<std::string_view>& fields) {
+    return std::ranges::all_of(fields, [](std::string_view field) { return number_in(field).has_value(); });
+  }
+
+  /// Takes the headings; in a comment, if the first line has numbers. Returns whether the line is a row.
+  bool read_header() {
+    separator_ = separator_in(lines_.line());
+    std::vector<std::string_view> fields = fields_of(lines_.line());
+    const bool is_row = are_numbers(fields);
+    if (is_row) {
+      const std::size_t count = fields.size();
+      separator_ = separator_in(comment_);
+      fields = fields_of(comment_);
+      if (fields.size() != count || are_numbers(fields))
+        lines_.fail("the first line has numbers, and no heading is before it; expected a header " + known_names());
+      separator_ = separator_in(lines_.line());
+    }
+    const std::vector<std::string> headings(fields.begin(), fields.end());
+    row_ = TableRow(file_.path(), choice_(file_.path(), headings));
+    const std::vector<TableColumn>& columns = row_.columns();
+    for (const std::string& heading : headings) {
+      const auto known =
+          std::ranges::find_if(columns, [&](const TableColumn& column) { return same_heading(column.name, heading); });
+      const auto column = static_cast<std::size_t>(known - columns.begin());
+      if (known != columns.end() && is_given(column)) lines_.fail(fmt::format("column {} appears twice", heading));
+      order_.push_back(known == columns.end() ? unused : column);
+    }
+    if (const std::string wrong = choice_.sort_out(headings, columns); !wrong.empty()) lines_.fail(wrong);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (!is_given(i) && !columns[i].absent)
+        lines_.fail(fmt::format("the header has no column {}{}; known are {}; it has {}", columns[i].name,
+                                columns[i].remedy, known_names(),
+                                detp::shortened(fmt::format("{}", fmt::join(headings, " ")))));
+    return is_row;
+  }
+
+  void set(std::size_t column_of_file, double value) {
+    if (order_[column_of_file] != unused) row_.set(order_[column_of_file], value);
   }
 
   void read_row() {
-    std::string_view line = lines_.line();
+    const std::string_view line = lines_.line();
     row_.place(lines_.number());
-    if (are_plain_numbers(line, [&](std::size_t i, double value) { row_.set(order_[i], value); })) return;
-    const std::size_t fields = fields_in(line);
-    if (fields != order_.size())
-      lines_.fail(fmt::format("{} fields, but the header has {} columns", fields, order_.size()));
-    for (const std::size_t column : order_)
-      row_.set(column, number(row_.columns()[column], trimmed(cut_until(line, ","))));
+    if (are_plain_numbers(line, [&](std::size_t i, double value) { set(i, value); })) return;
+    const std::vector<std::string_view> fields = fields_of(line);
+    if (fields.size() != order_.size())
+      lines_.fail(fmt::format("{} fields, but the header has {} columns, separated by {}", fields.size(), order_.size(),
+                              separator_ == '\t'  ? "tabs"
+                              : separator_ == ' ' ? "blanks"
+                              : separator_ == ';' ? "semicolons"
+                                                  : "commas"));
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      if (order_[i] != unused) row_.set(order_[i], number(row_.columns()[order_[i]], fields[i]));
   }
 
   /// Calls set(i, number) for each column if the line has numbers alone, without blanks, signs + or empty fields, none of them out of the range of
@@ -119,7 +179,7 @@ class CsvReader {
       double value = 0;
       const auto [stop, error] = std::from_chars(next, end, value);
       const bool is_last = i + 1 == order_.size();
-      if (error != std::errc{} || (is_last ? stop != end : stop == end || *stop != ',')) return false;
+      if (error != std::errc{} || (is_last ? stop != end : stop == end || *stop != separator_)) return false;
       set(i, value);
       next = stop + 1;
     }
@@ -170,7 +230,7 @@ class CsvReader {
         const std::size_t count = part.numbers.size() / order_.size();
         for (std::size_t i = 0; i < count; ++i) {
           for (std::size_t column = 0; column < order_.size(); ++column)
-            row_.set(order_[column], part.numbers[i * order_.size() + column]);
+            set(column, part.numbers[i * order_.size() + column]);
           row_.place(lines_.number() + i + 1);
           sink(row_);
         }
@@ -185,13 +245,17 @@ class CsvReader {
     if (field.empty() && column.empty) return *column.empty;
     if (field.empty()) lines_.fail(fmt::format("{} is empty; a number is needed", column.name));
     if (const auto value = number_in(field)) return *value;
-    lines_.fail(fmt::format("{} is {}, which is not a number", column.name, detp::quoted(field)));
+    lines_.fail(fmt::format(
+        "{} is {}, which is not a number{}", column.name, detp::quoted(field),
+        separator_ != ',' && field.find(',') != std::string_view::npos ? "; decimals need a point, not a comma" : ""));
   }
 
   InputFile file_;
   TextLines lines_;
   const ColumnChoice& choice_;
-  std::vector<std::size_t> order_;  ///< for each of the file's columns, its index in row_.columns()
+  char separator_ = ',';            ///< of fields; ' ': any number of blanks
+  std::string comment_;             ///< the last one before the header
+  std::vector<std::size_t> order_;  ///< for each of the file's columns, its index in row_.columns(), or `unused`
   TableRow row_;
 };
 

@@ -7,6 +7,9 @@ namespace detp::sim {
 /// Reads numbers from CSV: a header with the columns in any order, then rows. Passes each row to `sink` as it is read.
 /// Returns the number of rows.
 ///
+/// Fields end at commas, semicolons, tabs or blanks, as the header says, and may be in quotes. Headings may be in upper or lower case; other columns
+/// are skipped (ColumnChoice::unused). Lines that begin with # are comments; the last one may have the headings. Blanks around fields, blank
+/// lines, any line ends, a byte order mark and a line "sep=;" are accepted.
 /// Fields end at commas. Blanks around fields, blank lines, any line ends and a byte order mark are accepted; quotes
 /// and comments are not. Numbers are read independently of the locale, including "inf" and "nan". Throws FileError with
 /// the line if the header is missing, or has an unknown or a repeated column; if a required column is missing; if a row

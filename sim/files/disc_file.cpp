@@ -15,13 +15,15 @@
 
 namespace detp::sim {
 
-std::vector<Disc> read_discs(const std::string& path, std::optional<double> default_radius, std::stop_token stop) {
+std::vector<Disc> read_discs(const std::string& path, std::optional<double> default_radius, std::stop_token stop,
+                             std::vector<std::string>* unused) {
   std::vector<Disc> discs;
   KeptMemory memory(path);
+  const ColumnChoice columns(disc_columns(default_radius));
   read_table(
-      path, disc_columns(default_radius), [&](const TableRow& row) { memory.push(discs, disc_in(row)); },
-      std::move(stop));
+      path, columns, [&](const TableRow& row) { memory.push(discs, disc_in(row)); }, std::move(stop));
   if (discs.empty()) throw FileError(path, "has no disc; at least one is needed");
+  if (unused != nullptr) *unused = columns.unused();
   return discs;
 }
 
@@ -63,9 +65,12 @@ Disc disc_in(const TableRow& row) {
   return disc;
 }
 
-std::unique_ptr<const StoredDiscs> StoredDiscs::open(const std::string& path, std::optional<double> default_radius) {
-  auto file = TableFile::open(path, disc_columns(default_radius));
+std::unique_ptr<const StoredDiscs> StoredDiscs::open(const std::string& path, std::optional<double> default_radius,
+                                                     std::vector<std::string>* unused) {
+  const ColumnChoice columns(disc_columns(default_radius));
+  auto file = TableFile::open(path, columns);
   if (!file) return nullptr;
+  if (unused != nullptr) *unused = columns.unused();
   if (file->rows() == 0) throw FileError(path, "has no disc; at least one is needed");
   return std::unique_ptr<const StoredDiscs>(new StoredDiscs(std::move(*file)));
 }

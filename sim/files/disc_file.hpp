@@ -22,9 +22,9 @@ namespace detp::sim {
 /// default_radius is used if the column radius is missing, or a field of it is empty. Throws FileError with the line
 /// (CSV) or the vertex's number (PLY) if the file is unreadable or malformed, or has no disc; for a number that is not
 /// finite, a zero normal, a radius <= 0, or a missing radius without a default. Checks a row before it reads the next
-/// row. Throws std::length_error if the discs would not fit in memory, and Stopped within 0.1 s of a stop request.
+/// row. `unused`, unless it is null, gets the columns that are none of a disc's. Throws std::length_error if the discs would not fit in memory, and Stopped within 0.1 s of a stop request.
 [[nodiscard]] std::vector<Disc> read_discs(const std::string& path, std::optional<double> default_radius,
-                                           std::stop_token stop = {});
+                                           std::stop_token stop = {}, std::vector<std::string>* unused = nullptr);
 
 /// Writes discs with the columns x,y,z,nx,ny,nz,radius, and vertex if there are vertices (-1: none), as CSV or PLY: table_writer.hpp. The same doubles are read back. Throws
 /// FileError if the file cannot be written, and Stopped.
@@ -45,7 +45,8 @@ class StoredDiscs final : public DiscSource {
   /// Null if the rows of the file cannot be read in any order (TableFile::open). Reads the header alone. Throws FileError as read_discs does
   /// for a header.
   [[nodiscard]] static std::unique_ptr<const StoredDiscs> open(const std::string& path,
-                                                               std::optional<double> default_radius);
+                                                               std::optional<double> default_radius,
+                                                               std::vector<std::string>* unused = nullptr);
 
   [[nodiscard]] std::uint64_t size() const override { return file_.rows(); }
   /// Uses oneTBB's threads.

@@ -188,7 +188,8 @@ std::string mesh_suffixes() {
 }
 
 Mesh read_mesh(const std::string& path, Notices& notices, std::stop_token stop) {
-  const auto* format = std::ranges::find_if(formats, [&](const auto& one) { return has_ending(path, one.suffix); });
+  const auto* format =
+      std::ranges::find_if(formats, [&](const auto& one) { return has_ending(without_gz(path), one.suffix); });
   if (format == formats.end())
     throw FileError(path, fmt::format("is not a mesh file: its name must end in {}", mesh_suffixes()));
   Mesh mesh = format->read(path, notices, std::move(stop));

@@ -202,9 +202,9 @@ NpyHeader read_npy_header(InputFile& file) {
   return header;
 }
 
-std::string npy_header(const std::vector<std::string_view>& columns, std::uint64_t rows) {
+std::string npy_header(const std::vector<NpyColumn>& columns, std::uint64_t rows) {
   std::string fields;
-  for (const std::string_view column : columns) fields += fmt::format("('{}', '<f8'), ", column);
+  for (const auto& [name, type] : columns) fields += fmt::format("('{}', '{}'), ", name, type);
   std::string text = fmt::format("{{'descr': [{}], 'fortran_order': False, 'shape': ({},), }}", fields, rows);
   constexpr std::size_t before = 12;
   while ((before + text.size() + 1) % alignment != 0) text += ' ';

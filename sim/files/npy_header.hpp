@@ -28,7 +28,12 @@ struct NpyHeader {
 /// that are neither structured with one dimension nor plain with two, that are in Fortran order, or whose numbers are no integers or floats of 1 to 8 bytes.
 [[nodiscard]] NpyHeader read_npy_header(InputFile& file);
 
-/// The header of a structured array of doubles in little endian.
-[[nodiscard]] std::string npy_header(const std::vector<std::string_view>& columns, std::uint64_t rows);
+struct NpyColumn {
+  std::string_view name;
+  std::string_view type = "<f8";
+};
+
+/// The header of a structured array.
+[[nodiscard]] std::string npy_header(const std::vector<NpyColumn>& columns, std::uint64_t rows);
 
 }  // namespace detp::sim

@@ -103,6 +103,7 @@ RayFile read_rays(const std::string& path, std::stop_token stop, const std::vect
     file.paths.further_bands = further_bands();
     if (table->rows() == 0) throw FileError(path, "has no ray; at least one is needed");
     read_rows(*table, file.paths, stop);
+    file.unused = columns.unused();
     number_photons(file);
     return file;
   }
@@ -121,6 +122,7 @@ RayFile read_rays(const std::string& path, std::stop_token stop, const std::vect
       std::move(stop));
   if (file.paths.rays.empty()) throw FileError(path, "has no ray; at least one is needed");
   file.paths.further_bands = further_bands();
+  file.unused = columns.unused();
   number_photons(file);
   return file;
 }
@@ -154,8 +156,10 @@ constexpr double at_end = std::numeric_limits<double>::lowest();  ///< landing a
 std::vector<BandColumn> bands_in(const std::vector<std::string>& headings) {
   std::vector<BandColumn> bands;
   for (const std::string& heading : headings)
-    if (heading.starts_with(power_prefix)) bands.push_back({heading.substr(power_prefix.size()), heading});
-  if (!bands.empty() && std::ranges::count(headings, "power") > 0)
+    if (same_heading(heading.substr(0, power_prefix.size()), power_prefix))
+      bands.push_back({heading.substr(power_prefix.size()), heading});
+  if (!bands.empty() &&
+      std::ranges::any_of(headings, [](const std::string& one) { return same_heading(one, "power"); }))
     throw std::invalid_argument(
         fmt::format("has power and {}: a file has one power or powers with names", bands.front().column));
   return bands;

@@ -32,6 +32,7 @@ struct RayFile {
   std::vector<BandColumn> bands = {};  ///< empty: one power without a name
   /// Number in the file of each ray; empty if the rays have the file's order.
   std::vector<std::uint32_t> order = {};
+  std::vector<std::string> unused = {};  ///< columns of the file that are none of a ray's
 };
 
 /// Reads rays: CSV with the header ox,oy,oz,dx,dy,dz and optionally length, power (or powers in bands: ray_columns), photon and landing (columns in any order),

@@ -31,10 +31,13 @@ void require_no_stop(const std::stop_token& stop, const std::string& path) {
 }  // namespace
 
 std::unique_ptr<const StoredRays> StoredRays::open(const std::string& path, const std::stop_token& stop, Ranks* ranks,
-                                                   const std::vector<BandColumn>& bands) {
+                                                   const std::vector<BandColumn>& bands,
+                                                   std::vector<std::string>* unused) {
   std::vector<BandColumn> found;
-  auto file = TableFile::open(path, ray_columns(bands, found));
+  const ColumnChoice columns = ray_columns(bands, found);
+  auto file = TableFile::open(path, columns);
   if (!file) return nullptr;
+  if (unused != nullptr) *unused = columns.unused();
   if (file->rows() == 0) throw FileError(path, "has no ray; at least one is needed");
   std::unique_ptr<StoredRays> rays(new StoredRays(std::move(*file), std::move(found)));
   if (!rays->look_through(stop, ranks)) return nullptr;

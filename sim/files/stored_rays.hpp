@@ -20,7 +20,8 @@ class StoredRays final : public RaySource {
   /// given, share that. Throws FileError as read_rays does, and Stopped on a stop request.
   [[nodiscard]] static std::unique_ptr<const StoredRays> open(const std::string& path, const std::stop_token& stop = {},
                                                               Ranks* ranks = nullptr,
-                                                              const std::vector<BandColumn>& bands = {});
+                                                              const std::vector<BandColumn>& bands = {},
+                                                              std::vector<std::string>* unused = nullptr);
   [[nodiscard]] const std::vector<BandColumn>& band_columns() const { return bands_; }
 
   [[nodiscard]] std::uint64_t size() const override { return file_.rows(); }

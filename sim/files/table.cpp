@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "csv.hpp"
+#include "detp/model/vocabulary/quoted.hpp"
 #include "file_error.hpp"
 #include "input_file.hpp"
 #include "ply.hpp"
@@ -23,6 +28,7 @@ std::size_t read_ply_table(const std::string& path, const ColumnChoice& choice, 
   std::vector<std::string> names;
   for (const PlyProperty& property : vertex->properties) names.push_back(property.name);
   const std::vector<TableColumn> columns = choice(path, names);
+  choice.sort_out(path, names, columns);
   TableRow row(path, columns);
   PlyRequest request{.element = "vertex", .properties = {}, .on_row = {}};
   std::vector<std::size_t> given;
@@ -56,6 +62,45 @@ std::vector<TableColumn> ColumnChoice::operator()(const std::string& path,
   }
 }
 
+bool same_heading(std::string_view one, std::string_view other) {
+  return std::ranges::equal(
+      one, other, {}, [](unsigned char c) { return std::tolower(c); }, [](unsigned char c) { return std::tolower(c); });
+}
+
+void ColumnChoice::sort_out(const std::string& path, const std::vector<std::string>& headings,
+                            const std::vector<TableColumn>& columns) const {
+  if (const std::string wrong = sort_out(headings, columns); !wrong.empty()) throw FileError(path, wrong);
+}
+
+std::string ColumnChoice::sort_out(const std::vector<std::string>& headings,
+                                   const std::vector<TableColumn>& columns) const {
+  unused_.clear();
+  std::vector<std::string_view> missing;
+  for (const TableColumn& column : columns)
+    if (std::ranges::none_of(headings, [&](const std::string& one) { return same_heading(one, column.name); }))
+      missing.push_back(column.name);
+  for (const std::string& heading : headings) {
+    if (std::ranges::any_of(columns, [&](const TableColumn& one) { return same_heading(one.name, heading); })) continue;
+    constexpr std::size_t shortest = 4;  // shorter ones are near to too many
+    const std::string meant = heading.size() >= shortest ? did_you_mean(heading, missing) : "";
+    if (!meant.empty()) return fmt::format("unknown column {}{}", detp::quoted(heading), meant);
+    unused_.push_back(heading);
+  }
+  return "";
+}
+
+std::string unused_notice(const std::string& path, const std::vector<std::string>& unused) {
+  if (unused.empty()) return "";
+  constexpr std::size_t most = 10;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(most, unused.size()); ++i) names.push_back(detp::quoted(unused[i]));
+  return fmt::format("{}: {} {}{} not used", shown_path(path), unused.size() == 1 ? "column" : "columns",
+                     fmt::join(names, ", "),
+                     unused.size() > most ? fmt::format(" and {} others are", unused.size() - most)
+                     : unused.size() == 1 ? " is"
+                                          : " are");
+}
+
 void TableRow::fail(const std::string& what) const {
   if (rows_ > 0) throw FileError(path_, fmt::format("{} {} of {}: {}", what_, number_, rows_, what));
   throw FileError(path_, number_, what);
@@ -77,8 +122,9 @@ std::size_t read_table(const std::string& path, const ColumnChoice& choice, cons
     table->read(0, table->rows(), sink, stop);
     return table->rows();
   }
-  return has_ending(path, ".ply") ? read_ply_table(path, choice, sink, std::move(stop))
-                                  : read_csv(path, choice, sink, std::move(stop));
+  if (has_ending(path, ".npy.gz")) throw FileError(path, "is compressed; .npy is read as it is: unpack it first");
+  return has_ending(without_gz(path), ".ply") ? read_ply_table(path, choice, sink, std::move(stop))
+                                              : read_csv(path, choice, sink, std::move(stop));
 }
 
 }  // namespace detp::sim

@@ -33,9 +33,25 @@ class ColumnChoice {
   [[nodiscard]] std::vector<TableColumn> operator()(const std::string& path,
                                                     const std::vector<std::string>& headings) const;
 
+  /// What is wrong if a heading that is no column looks like a misspelt one that the file lacks; else empty. Keeps the others for `unused`.
+  [[nodiscard]] std::string sort_out(const std::vector<std::string>& headings,
+                                     const std::vector<TableColumn>& columns) const;
+  /// Throws FileError with it.
+  void sort_out(const std::string& path, const std::vector<std::string>& headings,
+                const std::vector<TableColumn>& columns) const;
+  /// Headings of the file read last that are no columns, in the file's order.
+  [[nodiscard]] const std::vector<std::string>& unused() const { return unused_; }
+
  private:
   std::function<std::vector<TableColumn>(const std::vector<std::string>&)> choose_;
+  mutable std::vector<std::string> unused_;
 };
+
+/// The headings are the same, in upper or lower case.
+[[nodiscard]] bool same_heading(std::string_view one, std::string_view other);
+
+/// "columns id and "wave length" are not used"; empty if there are none.
+[[nodiscard]] std::string unused_notice(const std::string& path, const std::vector<std::string>& unused);
 
 /// One row of a table.
 class TableRow {

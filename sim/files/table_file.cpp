@@ -73,6 +73,7 @@ bool TableFile::take_ply(InputFile& file, const ColumnChoice& choice) {
   std::vector<std::string> names;
   for (const PlyProperty& property : vertex->properties) names.push_back(property.name);
   columns_ = choice(path_, names);
+  choice.sort_out(path_, names, columns_);
   for (const TableColumn& column : columns_) {
     auto& place = places_.emplace_back();
     if (const auto property = vertex->property(column.name, false)) {
@@ -96,6 +97,7 @@ void TableFile::take_npy(InputFile& file, const ColumnChoice& choice) {
   if (!plain)
     for (const NpyField& field : header.fields) names.push_back(field.name);
   columns_ = choice(path_, names);
+  choice.sort_out(path_, names, columns_);
   if (plain && header.fields.size() > columns_.size())
     throw FileError(path_, fmt::format("has {} columns; known are {}", header.fields.size(), names_of(columns_)));
   for (std::size_t i = 0; i < columns_.size(); ++i) {

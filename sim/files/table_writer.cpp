@@ -27,7 +27,9 @@ TableWriter::TableWriter(const std::string& path, const std::vector<std::string_
   if (suffix_ == ".csv") {
     file_.write(fmt::format("{}\n", fmt::join(columns, ",")));
   } else if (suffix_ == ".npy") {
-    file_.write(npy_header(columns, rows));
+    std::vector<NpyColumn> fields;
+    for (const std::string_view column : columns) fields.push_back({column});
+    file_.write(npy_header(fields, rows));
   } else {
     file_.write(fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", rows));
     for (const std::string_view column : columns) file_.write(fmt::format("property double {}\n", column));

@@ -51,7 +51,8 @@ Until when
   --noise-of NAME    of several bands: whose noise; default: all, of their sum
   --time-limit S     stop after S seconds and show what there is
 Output
-  --per-disc FILE    hits and irradiance of each disc, as CSV
+  --per-disc FILE    hits and irradiance of each disc: .csv, .ply, .vtp, .npy
+  --per-face FILE    light that lands on each triangle, likewise
   --standard-error   with --per-disc: the error of each irradiance
   --pairs FILE       every pair of a ray and a disc that it crosses
   --verbose          also effects, and counts with their predictions

@@ -138,12 +138,15 @@ class JobMaker {
 
   /// Leaves discs in their file where they do not fit.
   void read_discs(const std::string& file, std::optional<double> radius) {
-    auto stored = request_.store_discs && request_.stream ? sim::StoredDiscs::open(file, radius) : nullptr;
+    std::vector<std::string> unused;
+    auto stored = request_.store_discs && request_.stream ? sim::StoredDiscs::open(file, radius, &unused) : nullptr;
     if (stored && request_.ray_file && !ray_table(*request_.ray_file)) stored.reset();
     if (!stored || !are_large(stored->size())) {
-      job_.discs = sim::read_discs(file, radius, stop_);
+      job_.discs = sim::read_discs(file, radius, stop_, &unused);
+      note_unused(file, unused);
       return;
     }
+    note_unused(file, unused);
     constexpr std::uint64_t sampled = std::uint64_t{1} << 17;
     job_.stored_summary = sim::summary_of(*stored, stop_);
     job_.discs = sim::sample_of(*stored, sampled, stop_);
@@ -151,6 +154,11 @@ class JobMaker {
         "the {} discs do not fit in memory: they are read part by part, and their workload is measured on {} of them",
         stored->size(), job_.discs.size()));
     job_.stored_discs = std::move(stored);
+  }
+
+  void note_unused(const std::string& file, const std::vector<std::string>& unused) {
+    if (std::string notice = sim::unused_notice(file, unused); !notice.empty())
+      job_.notices.push_back(std::move(notice));
   }
 
   /// With their results they take more than half the memory of a process.
@@ -209,8 +217,10 @@ class JobMaker {
       if (request_.rays)
         throw std::invalid_argument("the number of rays is for fields of rays; a ray file is taken whole");
       job_.field = sim::Field::photons;
+      std::vector<std::string> unused;
       if (job_.stored_discs || (request_.stream && is_large(*request_.ray_file)))
-        if (auto stored = sim::StoredRays::open(*request_.ray_file, stop_, request_.ranks, request_.bands)) {
+        if (auto stored = sim::StoredRays::open(*request_.ray_file, stop_, request_.ranks, request_.bands, &unused)) {
+          note_unused(*request_.ray_file, unused);
           name_bands(stored->band_columns());
           job_.stream = std::move(stored);
           return;
@@ -222,6 +232,7 @@ class JobMaker {
                         *request_.disc_file));
       sim::RayFile file = sim::read_rays(*request_.ray_file, stop_, request_.bands);
       name_bands(file.bands);
+      note_unused(*request_.ray_file, file.unused);
       keep(std::move(file.paths));
       job_.file_order = std::move(file.order);
       return;

@@ -130,6 +130,25 @@ std::optional<RaysTaken> taken_of(const sim::PhotonSource& source, const sim::Ou
   return RaysTaken{static_cast<double>(rays), static_cast<double>(photons), source.light_of(photons)};
 }
 
+/// Photons of a job whose scene is kept.
+LightOnFaces light_on_faces(const Job& job, sim::RunOptions options) {
+  if (!job.scene || job.scene->mesh.triangles.empty())
+    throw std::invalid_argument("--per-face needs a mesh: a scene with triangles");
+  const sim::Mesh& mesh = job.scene->mesh;
+  options.count = options.pairs = false;
+  const auto sums = [&](const sim::SurfaceParts& parts) {
+    sim::Outcome found = sim::sums_of_parts(job.paths(), mesh, parts, job.front_facing, options);
+    if (found.stopped) throw sim::Stopped("stopped while light on faces was added up", found.progress);
+    return found;
+  };
+  LightOnFaces faces{
+      sums(sim::parts_by_triangle(mesh)), {sim::parts_by_material(mesh), {}}, {sim::parts_by_group(mesh), {}}};
+  options.standard_error = true;
+  for (LightOnParts* one : {&faces.by_material, &faces.by_group})
+    if (!one->parts.areas.empty()) one->found = sums(one->parts);
+  return faces;
+}
+
 /// What a run without hits met, and the likely reason.
 std::string why_nothing(const Job& job, const RunAnswer& answer) {
   if (answer.request.gathers()) return fmt::format("no light: no path of {} discs finds a light", job.disc_count());
@@ -182,7 +201,12 @@ void check(const RunRequest& request) {
           fmt::format("the paper has no formulas for {}; it has for sphere-cache, sphere-cache-published and octree",
                       name(*request.technique)));
   }
+  if (request.faces && request.gathers())
+    throw std::invalid_argument("--per-face adds up photons that land; gather has none");
+  if (request.faces && request.job.ranks != nullptr && request.job.ranks->count() > 1)
+    throw std::invalid_argument("--per-face needs all photons in one process");
   if (!request.target) return;
+  if (request.faces) throw std::invalid_argument("--per-face keeps all rays; a run until an error does not");
   require_batches(estimator);
   validate::check(request.target->error);
   if (request.pairs || request.repeat > 0)
@@ -195,9 +219,10 @@ JobRequest job_request(std::span<const RunRequest> requests) {
   JobRequest job = requests.front().job;
   if (until && !job.ray_file) job.rays = first_rays(job.rays.value_or(most_rays_by_default));
   job.stream = job.store_discs =
-      !until && all([](const RunRequest& one) { return one.estimator == sim::Estimator::disc; });
+      !until && all([](const RunRequest& one) { return one.estimator == sim::Estimator::disc && !one.faces; });
   job.keep_scene = until || !all([](const RunRequest& one) {
-                     return !sim::record_of(one.estimator).needs_mesh() && !sim::record_of(one.estimator).needs_scene;
+                     return !one.keep_scene && !one.faces && !sim::record_of(one.estimator).needs_mesh() &&
+                            !sim::record_of(one.estimator).needs_scene;
                    });
   job.without_rays = all([](const RunRequest& one) { return one.gathers(); });
   job.in_batches = until;
@@ -235,6 +260,11 @@ RunAnswer answer(const Job& job, const RunRequest& request, const std::stop_toke
                        answer.choice ? &*answer.choice : nullptr);
   if (job.photon_stream && request.answers()) answer.taken = taken_of(*job.photon_stream, answer.run.outcome);
   run.count = run.pairs = false;
+  if (request.faces && !answer.run.outcome.stopped) try {
+      answer.faces = light_on_faces(job, run);
+    } catch (const sim::Stopped& stopped) {
+      answer.run.outcome.stopped = true;
+    }
   answer.timing = time_runs(job, estimate, answer.run, answer.run.outcome.stopped ? 0 : request.repeat, run,
                             sim::part_of(progress, share_of_first, 1), together);
   return answer;

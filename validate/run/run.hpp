@@ -9,6 +9,7 @@
 
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/estimate/estimate.hpp"
+#include "detp/sim/estimate/face_sums.hpp"
 #include "detp/sim/scene/selection.hpp"
 #include "detp/validate/accuracy/error_split.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
@@ -45,6 +46,8 @@ struct RunRequest {
   int repeat = 0;                           ///< further runs that are timed
   bool pairs = false;
   bool standard_error = false;
+  bool keep_scene = false;               ///< files will have its triangles
+  bool faces = false;                    ///< light on faces, by the landings of photons
   std::optional<RunTarget> target = {};  ///< the run ends when its error is below; default: all rays
   std::optional<sim::Share> share = {};  ///< what ranks share; default: usual_share
 
@@ -80,6 +83,18 @@ struct UntilAnswer {
   [[nodiscard]] NoiseInterval error() const { return with_bias(result.noise, bias ? bias->squared : Estimate{}); }
 };
 
+/// Light on parts of the scene's surface.
+struct LightOnParts {
+  sim::SurfaceParts parts;
+  sim::Outcome found;
+};
+
+struct LightOnFaces {
+  sim::Outcome triangles;
+  LightOnParts by_material;
+  LightOnParts by_group;  ///< no parts if there are no groups
+};
+
 struct RunAnswer {
   RunRequest request = {};            ///< with the costs of the question
   Candidate candidate = {};           ///< of an estimator that uses none, without meaning
@@ -88,6 +103,7 @@ struct RunAnswer {
   JobRun run = {};
   Timing timing = {};
   std::optional<UntilAnswer> until = {};
+  std::optional<LightOnFaces> faces = {};
   std::optional<RaysTaken> taken = {};  ///< of a stream of photon paths: those that were searched
   WholeInputs whole = {};               ///< of the command, if the rays are known before
 
@@ -124,7 +140,8 @@ struct JobAndRun {
 
 /// Files of what a run found. They appear complete or not at all.
 struct RunFiles {
-  std::optional<std::string> per_disc = {};  ///< hits and irradiance of each disc, as CSV
+  std::optional<std::string> per_disc = {};  ///< place, hits and irradiance of each disc (sim::ResultFile)
+  std::optional<std::string> per_face = {};  ///< the same of each triangle
   std::optional<std::string> pairs = {};     ///< "ray,disc" of each pair, as CSV
 };
 

@@ -217,6 +217,33 @@ Field<Run> of_bands(const std::string& name, const std::string& unit, const std:
   });
 }
 
+/// The light on parts of the surface: irradiance times area.
+Json parts_json(const Job& job, const LightOnParts& light) {
+  Json json = Json::array();
+  for (std::size_t part = 0; part < light.parts.names.size(); ++part) {
+    const double area = light.parts.areas[part];
+    const auto in_bands = [&](double sim::DiscResult::*value) {
+      std::vector<Json> values;
+      for (std::size_t band = 0; band < light.found.bands(); ++band)
+        values.push_back(known(area * (sim::result_of(light.found, part, band).*value)));
+      return by_band(job, values);
+    };
+    json.push_back({{"name", light.parts.names[part]},
+                    {"area", area},
+                    {"hits", light.found.hits[part]},
+                    {"light", in_bands(&sim::DiscResult::irradiance)},
+                    {"standard_error", in_bands(&sim::DiscResult::standard_error)},
+                    {"upper_bound", in_bands(&sim::DiscResult::upper_bound)}});
+  }
+  return json;
+}
+
+Json faces_json(const Run& run) {
+  const auto& faces = run.answer.faces;
+  if (!faces) return left_out();
+  return {{"materials", parts_json(run.job, faces->by_material)}, {"groups", parts_json(run.job, faces->by_group)}};
+}
+
 Json hits_estimate(const Run& run) {
   const auto all = estimated_hits(run.answer);
   return all ? Json{{"value", all->value}, {"standard_error", json_value(all->standard_error)}} : Json();
@@ -400,6 +427,7 @@ const Fields<ShownRun>& run_fields() {
                    return until.mirror_share > 0 ? Json(until.mirror_share) : left_out();
                  }))
           .in_json_alone(),
+      Field<Run>("faces", "", "light that lands on the surface, by material and by group", faces_json).in_json_alone(),
       effects_field<Run>([](const Run& run) { return to_json(run.job.observed().effects); }),
       Field<Run>("warnings", "", "all that was said on standard error", warnings_of).in_json_alone(),
       Field<Run>("light", "", "how photon paths ended", light_of).in_json_alone(),

@@ -1,10 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <unordered_map>
+#include <utility>
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/files/output_file.hpp"
+#include "detp/sim/files/result_file.hpp"
+#include "detp/sim/files/table_writer.hpp"
 #include "detp/sim/files/writing_check.hpp"
 #include "run.hpp"
 
@@ -35,36 +41,144 @@ void write_pairs(const std::string& path, const JobRun& run, const std::vector<s
   file.commit();
 }
 
-/// Hits and irradiance of each disc; with standard errors and bounds if they were asked for.
-void write_per_disc(const std::string& path, const JobRun& run, const Job& job, const std::stop_token& stop) {
-  const std::vector<std::uint32_t>& vertices = job.vertices;
-  const bool errors = run.results ? run.results->errors() : !run.outcome.standard_error.empty();
-  sim::WritingCheck check(path, disc_count(run), "discs", stop);
-  sim::OutputFile file(path, stop);
-  std::string line = "disc,hits";
+/// A job's discs, one after the other, wherever they are.
+class DiscsInOrder {
+ public:
+  DiscsInOrder(const Job& job, const std::stop_token& stop) : job_(job), stop_(stop) {}
+
+  const sim::Disc& next() {
+    constexpr std::uint64_t at_once = 1 << 14;
+    const std::uint64_t number = given_++;
+    if (!job_.stored_discs) return job_.discs[number];
+    if (number % at_once == 0) {
+      block_.resize(std::min(at_once, job_.stored_discs->size() - number));
+      job_.stored_discs->read(number, block_, stop_);
+    }
+    return block_[number % at_once];
+  }
+
+ private:
+  const Job& job_;
+  std::stop_token stop_;
+  std::uint64_t given_ = 0;
+  std::vector<sim::Disc> block_;
+};
+
+/// The triangles of the scene's mesh, with the numbers of the discs at their corners; none unless each corner has one. A vertex where edges are
+/// sharp has a disc for each of its normals: that whose normal is nearest to the triangle's.
+std::vector<std::array<std::uint32_t, 3>> triangles_of_discs(const Job& job) {
+  if (!job.scene || job.vertices.size() != job.discs.size()) return {};
+  const sim::Mesh& mesh = job.scene->mesh;
+  std::unordered_multimap<std::uint32_t, std::uint32_t> discs_at;
+  for (std::uint32_t disc = 0; disc < job.vertices.size(); ++disc) discs_at.emplace(job.vertices[disc], disc);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const auto& corners : mesh.triangles) {
+    const glm::dvec3 normal = glm::cross(mesh.positions[corners[1]] - mesh.positions[corners[0]],
+                                         mesh.positions[corners[2]] - mesh.positions[corners[0]]);
+    std::array<std::uint32_t, 3>& own = triangles.emplace_back();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::uint32_t vertex = mesh.file_vertices.empty() ? corners[i] : mesh.file_vertices[corners[i]];
+      const auto [first, last] = discs_at.equal_range(vertex);
+      if (first == last) return {};
+      own[i] = std::max_element(first, last, [&](const auto& one, const auto& other) {
+                 const auto nearness = [&](std::uint32_t disc) { return glm::dot(job.discs[disc].normal, normal); };
+                 return std::pair(nearness(one.second), other.second) < std::pair(nearness(other.second), one.second);
+               })->second;
+    }
+  }
+  return triangles;
+}
+
+/// The columns of what is found, in each band.
+void add_irradiance(const Job& job, bool errors, std::vector<sim::ResultColumn>& columns) {
   for (const std::string& band : job.bands.empty() ? std::vector<std::string>{""} : job.bands) {
     const std::string name = band.empty() ? "" : "_" + band;
-    line += ",irradiance" + name;
-    if (errors) line += fmt::format(",standard_error{0},upper_bound{0},standard_error_weak{0}", name);
+    columns.push_back({"irradiance" + name});
+    if (!errors) continue;
+    columns.push_back({"standard_error" + name});
+    columns.push_back({"upper_bound" + name});
+    columns.push_back({"standard_error_weak" + name, sim::ResultColumn::Kind::index});
   }
-  file.write(line + (vertices.empty() ? "\n" : ",vertex\n"));
-  std::uint64_t disc = 0;
+}
+
+/// Bounds are not written where errors are not weak.
+void add_irradiance(const sim::DiscResult& found, bool errors, std::vector<double>& row) {
+  row.push_back(found.irradiance);
+  if (!errors) return;
+  const bool weak = sim::is_weak(found);
+  row.insert(row.end(), {found.standard_error, weak ? found.upper_bound : std::nan(""), weak ? 1.0 : 0.0});
+}
+
+/// Place, hits and irradiance of each disc; with standard errors and bounds if they were asked for.
+void write_per_disc(const std::string& path, const JobRun& run, const Job& job, const std::stop_token& stop) {
+  using Kind = sim::ResultColumn::Kind;
+  const bool errors = run.results ? run.results->errors() : !run.outcome.standard_error.empty();
+  std::vector<sim::ResultColumn> columns{{"disc", Kind::index}};
+  for (const char* real : {"x", "y", "z", "nx", "ny", "nz", "radius"}) columns.push_back({real});
+  columns.push_back({"vertex", Kind::index});
+  columns.push_back({"hits", Kind::count});
+  add_irradiance(job, errors, columns);
+  const std::string suffix = sim::suffix_of(path);
+  const auto triangles =
+      suffix == ".ply" || suffix == ".vtp" ? triangles_of_discs(job) : std::vector<std::array<std::uint32_t, 3>>{};
+  sim::ResultFile file(path, std::move(columns), disc_count(run), {.triangles = triangles}, "discs", stop);
+  DiscsInOrder discs(job, stop);
+  std::uint64_t number = 0;
+  std::vector<double> row;
   for_each_disc(run, [&](std::span<const sim::DiscResult> by_band) {
-    check.next();
-    const auto finite = [](double one) { return std::isfinite(one) ? fmt::format("{}", one) : std::string(); };
-    line.clear();
-    for (const sim::DiscResult& found : by_band) {
-      line += fmt::format(",{}", found.irradiance);
-      const bool weak = sim::is_weak(found);
-      if (errors)
-        line +=
-            fmt::format(",{},{},{}", finite(found.standard_error), weak ? finite(found.upper_bound) : "", weak ? 1 : 0);
-    }
-    const std::string vertex = vertices.empty()                   ? ""
-                               : vertices[disc] == sim::no_vertex ? ",-1"
-                                                                  : fmt::format(",{}", vertices[disc]);
-    file.write(fmt::format("{},{}{}{}\n", disc++, by_band[0].hits, line, vertex));
+    const sim::Disc& disc = discs.next();
+    const bool at_vertex = !job.vertices.empty() && job.vertices[number] != sim::no_vertex;
+    row = {static_cast<double>(number),
+           disc.centre.x,
+           disc.centre.y,
+           disc.centre.z,
+           disc.normal.x,
+           disc.normal.y,
+           disc.normal.z,
+           disc.radius,
+           at_vertex ? job.vertices[number] : -1.0,
+           static_cast<double>(by_band[0].hits)};
+    for (const sim::DiscResult& found : by_band) add_irradiance(found, errors, row);
+    file.write(row);
+    ++number;
   });
+  file.commit();
+}
+
+/// Light on each triangle. With several groups, a triangle has all their names.
+void write_per_face(const std::string& path, const LightOnFaces& faces, const Job& job, const std::stop_token& stop) {
+  using Kind = sim::ResultColumn::Kind;
+  const sim::Mesh& mesh = job.scene->mesh;
+  const bool errors = !faces.triangles.standard_error.empty();
+  std::vector<sim::ResultColumn> columns{{"face", Kind::index}};
+  for (const char* real : {"x", "y", "z", "nx", "ny", "nz", "area"}) columns.push_back({real});
+  columns.push_back({"material", Kind::index, faces.by_material.parts.names});
+  std::vector<std::string> sets;
+  for (const std::vector<std::uint32_t>& set : mesh.groups.sets) {
+    std::string& names = sets.emplace_back();
+    for (const std::uint32_t name : set) names += (names.empty() ? "" : " ") + mesh.groups.names[name];
+  }
+  const bool grouped = !mesh.groups.of_triangle.empty();
+  columns.push_back({"group", Kind::index, sets});
+  columns.push_back({"hits", Kind::count});
+  add_irradiance(job, errors, columns);
+  sim::ResultFile file(path, std::move(columns), mesh.triangles.size(), {mesh.positions, mesh.triangles}, "faces",
+                       stop);
+  std::vector<double> row;
+  for (std::uint32_t face = 0; face < mesh.triangles.size(); ++face) {
+    const auto& [a, b, c] = mesh.triangles[face];
+    const glm::dvec3 place = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
+    const glm::dvec3 cross = glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+    const double twice = glm::length(cross);
+    const glm::dvec3 normal = twice > 0 ? cross / twice : glm::dvec3{0.0};
+    row = {static_cast<double>(face), place.x, place.y, place.z, normal.x, normal.y, normal.z, twice / 2};
+    row.push_back(faces.by_material.parts.set_of_triangle[face]);
+    row.push_back(grouped ? mesh.groups.of_triangle[face] : -1.0);
+    row.push_back(static_cast<double>(faces.triangles.hits[face]));
+    for (std::size_t band = 0; band < faces.triangles.bands(); ++band)
+      add_irradiance(sim::result_of(faces.triangles, face, band), errors, row);
+    file.write(row);
+  }
   file.commit();
 }
 
@@ -76,9 +190,9 @@ WrittenRun write_files(const RunFiles& files, const Job& job, const RunAnswer& a
   if (outcome.stopped) {
     // By the photons so far, the irradiance is an estimate; sums over other rays would be too small.
     const bool is_estimate = answer.taken.has_value();
-    if ((files.per_disc && !is_estimate) || files.pairs)
+    if ((files.per_disc && !is_estimate) || files.per_face || files.pairs)
       written.notices.emplace_back(
-          "stopped before the end: --per-disc and --pairs are not written, because they would be partial");
+          "stopped before the end: --per-disc, --per-face and --pairs are not written, because they would be partial");
     if (is_estimate && files.per_disc) {
       written.notices.push_back(fmt::format("{} has the irradiance by the photons of the first {} rays",
                                             *files.per_disc, outcome.progress.done));
@@ -89,6 +203,7 @@ WrittenRun write_files(const RunFiles& files, const Job& job, const RunAnswer& a
   }
   try {
     if (files.per_disc) write_per_disc(*files.per_disc, answer.run, job, stop);
+    if (files.per_face && answer.faces) write_per_face(*files.per_face, *answer.faces, job, stop);
     if (files.pairs) write_pairs(*files.pairs, answer.run, job.file_order, stop);
   } catch (const sim::Stopped& stopped) {
     written.notices.push_back(fmt::format("{}; the file is not kept", stopped.what()));

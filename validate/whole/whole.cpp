@@ -31,7 +31,8 @@ double seconds_of_pieces(const WholeInputs& inputs, const AccuracyCosts& costs, 
 
 void add_file(const std::optional<std::string>& path, WholeInputs& inputs) {
   if (!path || path->starts_with('@')) return;
-  const bool binary = sim::has_ending(*path, ".ply") || sim::has_ending(*path, ".npy");
+  const std::string_view name = sim::without_gz(*path);
+  const bool binary = sim::has_ending(name, ".ply") || sim::has_ending(name, ".npy");
   (binary ? inputs.binary_bytes : inputs.text_bytes) += size_of(*path);
 }
 

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <chrono>
 #include <csignal>
@@ -195,5 +196,63 @@ TEST_SUITE("identity") {
                    stop_after_1000, later.get_token()),
         Stopped);
     CHECK(rows < 1000 + (1 << 17) / 12 + 1);  // at most the rows that had been read before
+  }
+}
+
+namespace {
+
+/// As gzip writes it.
+std::string packed(const std::string& text) {
+  z_stream state{};
+  REQUIRE(deflateInit2(&state, Z_BEST_SPEED, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY) == Z_OK);
+  std::string out(deflateBound(&state, text.size()), '\0');
+  std::string in = text;
+  state.next_in = reinterpret_cast<Bytef*>(in.data());
+  state.avail_in = static_cast<uInt>(in.size());
+  state.next_out = reinterpret_cast<Bytef*>(out.data());
+  state.avail_out = static_cast<uInt>(out.size());
+  REQUIRE(deflate(&state, Z_FINISH) == Z_STREAM_END);
+  out.resize(state.total_out);
+  deflateEnd(&state);
+  return out;
+}
+
+}  // namespace
+
+TEST_SUITE("compressed files") {
+  TEST_CASE("what gzip has packed is read as it was, in one member or several") {
+    const ScratchFolder folder;
+    std::string text = "x,y,z,nx,ny,nz,radius\n";
+    for (int i = 0; i < 100'000; ++i) text += std::to_string(i % 977) + ",0,0,0,0,1,1\n";
+    const auto plain = read_discs(folder.file("a.csv", text), {});
+    for (const std::string& content : {packed(text), packed(text.substr(0, 999)) + packed(text.substr(999)), text}) {
+      const auto found = read_discs(folder.file("a.csv.GZ", content), {});
+      REQUIRE(found.size() == plain.size());
+      for (std::size_t i = 0; i < plain.size(); ++i) REQUIRE(found[i].centre == plain[i].centre);
+    }
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float nx\nproperty float ny\nproperty float nz\nend_header\n1 2 3 0 0 1\n";
+    CHECK(read_discs(folder.file("a.ply.gz", packed(ply)), 1).front().centre == glm::dvec3(1, 2, 3));
+    Notices notices;
+    const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    CHECK(read_mesh(folder.file("a.obj.gz", packed(mesh)), notices).triangles.size() == 1);
+  }
+
+  TEST_CASE("damaged and cut off ones are refused") {
+    const ScratchFolder folder;
+    std::string text = "x,y,z,nx,ny,nz,radius\n";
+    for (int i = 0; i < 1000; ++i) text += std::to_string(i * i) + ",0,0,0,0,1,1\n";
+    const std::string good = packed(text);
+    const auto error = [&](const std::string& content, const char* name = "a.csv.gz") {
+      return support::file_error_of([&] { (void)read_discs(folder.file(name, content), {}); });
+    };
+    CHECK(error(good.substr(0, good.size() / 2)).find("ends in the middle of its compressed data") !=
+          std::string::npos);
+    std::string damaged = good;
+    for (std::size_t i = good.size() / 2; i < good.size() / 2 + 20; ++i) damaged[i] = static_cast<char>(~damaged[i]);
+    CHECK(error(damaged).find("has damaged compressed data") != std::string::npos);
+    CHECK(error(good, "a.npy.gz").find("unpack it first") != std::string::npos);
+    CHECK(error(good + "more").find("has damaged compressed data") != std::string::npos);
   }
 }

@@ -87,12 +87,12 @@ TEST_SUITE("bad input") {
     const auto rays = [&](const std::string& content, const std::string& named) {
       return tables.as_rays(tables.file(content), ".csv" + named);
     };
-    check_refused({discs("a,b,c\n1,2,3\n", ":1: unknown column \"a\"; known are x,y,z,nx,ny,nz,radius"),
+    check_refused({discs("a,b,c\n1,2,3\n", ":1: the header has no column x; known are x,y,z,nx,ny,nz,radius"),
                    discs("x,y,z,nx,ny\n1,2,3,4,5\n", ":1: the header has no column nz"),
                    discs("x,y,z,nx,ny,nz,x\n1,2,3,4,5,6,7\n", ":1: column x appears twice"),
                    discs("x,y,z,nx,ny,nz\n0,0,0,0,0,1\n", ":1: the header has no column radius"),
-                   discs("1,2,3,4,5,6,7\n", ":1: unknown column"), discs(disc_header, ": has no disc"),
-                   rays(disc_header + "0,0,0,0,0,1,1\n", ":1: unknown column \"x\"; known are ox,oy,oz"),
+                   discs("1,2,3,4,5,6,7\n", ":1: the first line has numbers"), discs(disc_header, ": has no disc"),
+                   rays(disc_header + "0,0,0,0,0,1,1\n", ":1: the header has no column ox; known are ox,oy,oz"),
                    rays("ox,oy,oz,dx,dy\n0,0,0,0,0\n", ":1: the header has no column dz"),
                    rays(ray_header, ": has no ray")});
   }

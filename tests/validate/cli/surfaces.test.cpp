@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/command.hpp"
+#include "support/csv_answer.hpp"
 
 namespace detp::support {
 namespace {
@@ -72,19 +73,12 @@ struct PerDisc {
   std::vector<std::string> vertices = {};
 };
 
-/// Columns disc,hits,irradiance,vertex.
 PerDisc run_per_disc(const ScratchFolder& folder, const std::string& arguments) {
   const std::string path = folder.path("per_disc.csv");
   PerDisc found{.json = result_of("run " + arguments + " --per-disc " + path)};
-  std::istringstream lines(content_of(path));
-  std::string line;
-  std::getline(lines, line);
-  while (std::getline(lines, line)) {
-    std::istringstream fields(line);
-    std::vector<std::string> all;
-    for (std::string field; std::getline(fields, field, ',');) all.push_back(field);
-    found.irradiance.push_back(std::stod(all.at(2)));
-    found.vertices.push_back(all.size() > 3 ? all[3] : "");
+  for (const CsvRow& row : csv_rows(content_of(path))) {
+    found.irradiance.push_back(number(row, "irradiance"));
+    found.vertices.push_back(row.at("vertex"));
   }
   return found;
 }
@@ -138,7 +132,7 @@ TEST_SUITE("end to end") {
     const std::string discs = folder.path("discs.csv");
     CHECK(detp("scene " + file + " --rays 10 --write-discs " + discs).code == 0);
     CHECK(content_of(discs).starts_with("x,y,z,nx,ny,nz,radius,vertex\n"));
-    CHECK(run_per_disc(folder, file + " --rays 2000 --discs " + discs).vertices.back().empty());
+    CHECK(run_per_disc(folder, file + " --rays 2000 --discs " + discs).vertices.back() == "-1");
     for (const char* crease : {"-1", "181", "nan", "sharp"}) {
       CAPTURE(crease);
       CHECK(detp("scene " + file + " --crease " + crease).code == 2);

@@ -103,6 +103,11 @@ RunRequest request_of(const RunOptions& options, const CommonOptions& common) {
   request.repeat = options.repeat;
   request.pairs = options.files.pairs.has_value();
   request.standard_error = options.standard_error;
+  if (options.files.per_disc) {
+    const std::string suffix = sim::suffix_of(*options.files.per_disc);
+    request.keep_scene = suffix == ".ply" || suffix == ".vtp";
+  }
+  request.faces = options.files.per_face.has_value();
   request.target = target_of(options);
   if (options.share)
     request.share =
@@ -113,11 +118,12 @@ RunRequest request_of(const RunOptions& options, const CommonOptions& common) {
 /// Throws std::invalid_argument for options that exclude each other, and for those that no row uses.
 void check_options(const RunOptions& options, const std::vector<RunRequest>& candidates, std::size_t rows,
                    bool in_memory) {
-  if (rows > 1 && (options.files.per_disc || options.files.pairs))
-    throw std::invalid_argument("--per-disc and --pairs write the hits of one run; give one value for each option");
+  if (rows > 1 && (options.files.per_disc || options.files.per_face || options.files.pairs))
+    throw std::invalid_argument(
+        "--per-disc, --per-face and --pairs write the hits of one run; give one value for each option");
   if (rows > 1 && in_memory) throw std::invalid_argument("one run is kept in memory; give one value for each option");
-  if (options.standard_error && !options.files.per_disc && !in_memory)
-    throw std::invalid_argument("--standard-error is a column of --per-disc FILE; give that too");
+  if (options.standard_error && !options.files.per_disc && !options.files.per_face && !in_memory)
+    throw std::invalid_argument("--standard-error is a column of --per-disc FILE or --per-face FILE; give one too");
   if (options.target.checkpoint && rows > 1)
     throw std::invalid_argument("--checkpoint keeps one run with --target-noise or --target-error");
   std::set<std::string_view> used;
@@ -289,8 +295,13 @@ Command run_command(CLI::App& program) {
                 "also print effects, and the counts with their predictions; default: a short answer");
   add_number(*app, "--repeat", options->repeat,
              "time that many further runs, which do not count; the median is shown; default: 0");
-  app->add_option("--per-disc", options->files.per_disc,
-                  "write disc,hits,irradiance as CSV, in input order, and the vertex in the mesh (-1: none)");
+  app->add_option(
+      "--per-disc", options->files.per_disc,
+      "write place, hits and irradiance of each disc, in input order, and its vertex in the mesh (-1: none), as "
+      ".csv, .ply, .vtp (ParaView) or .npy; .ply and .vtp have the mesh if each vertex has a disc");
+  app->add_option(
+      "--per-face", options->files.per_face,
+      "write area, material, group and the light that lands on each triangle of the scene, in the same formats");
   app->add_flag("--standard-error", options->standard_error,
                 "add to --per-disc the standard error of each irradiance, for independent photons, and where a few "
                 "photons bring most of it, an upper bound (95 %) of the irradiance");

@@ -113,9 +113,10 @@ TEST_SUITE("bad input") {
     const std::string run = "run @uniform --samples 100 --rays 100 --technique brute-force ";
     const std::string scene = "scene @cornell --rays 100 ";
     std::vector<Refusal> refusals;
-    for (const char* name : {"x.xyz", "x.ply", "x.doc", "x.json.gz"}) {
-      for (const char* option : {"--per-disc ", "--pairs "})
-        refusals.push_back({run + option + folder.path(name), "writes .csv"});
+    for (const char* name : {"x.xyz", "x.obj", "x.doc", "x.json.gz"}) {
+      refusals.push_back({run + "--per-disc " + folder.path(name), "writes .csv, .ply, .vtp, .npy"});
+      refusals.push_back({run + "--per-face " + folder.path(name), "writes .csv, .ply, .vtp, .npy"});
+      refusals.push_back({run + "--pairs " + folder.path(name), "writes .csv"});
       refusals.push_back({run + "-o " + folder.path(name), "writes .txt, .json, .csv"});
     }
     for (const char* name : {"x.xyz", "x.obj", "x.csv.bak"}) {

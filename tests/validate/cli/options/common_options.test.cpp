@@ -145,7 +145,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("the help of each option that takes a value tells the default, except where nothing is done without it") {
-    const std::set<std::string> nothing{"--checkpoint",  "--per-disc",   "--pairs",     "--write-mesh",
+    const std::set<std::string> nothing{"--checkpoint",  "--per-disc",   "--per-face",  "--pairs",       "--write-mesh",
                                         "--write-discs", "--write-rays", "--curvature", "--target-error"};
     const std::regex takes_value("^  (-[a-z],)?(--[a-z-]+) [A-Z]");
     for (const std::string name : {"model", "choose", "run", "validate", "scene", "bench"}) {

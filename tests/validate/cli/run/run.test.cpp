@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numbers>
 #include <tuple>
 
@@ -103,7 +104,7 @@ TEST_SUITE("end to end") {
       const Written written =
           run_and_read(data.csv, front_facing ? "--technique brute-force --front-facing" : "--technique brute-force");
       CHECK(written.pairs == data.expected_pairs(front_facing));
-      const std::vector<std::string> rows = rows_of(written.per_disc);
+      const std::vector<CsvRow> rows = csv_rows(written.per_disc);
       REQUIRE(rows.size() == data.discs.size());
       for (std::size_t i = 0; i < rows.size(); ++i) {
         std::uint64_t hits = 0;
@@ -113,10 +114,15 @@ TEST_SUITE("end to end") {
             ++hits;
             power += ray.power;
           }
-        const std::string start = fmt::format("{},{},", i, hits);
-        CHECK(rows[i].starts_with(start));
-        const double area = std::numbers::pi * data.discs[i].radius * data.discs[i].radius;
-        CHECK(std::stod(rows[i].substr(start.size())) == doctest::Approx(power / area).epsilon(1e-12));
+        const auto& [centre, normal, radius] = data.discs[i];
+        CHECK(rows[i].at("disc") == std::to_string(i));
+        CHECK(number(rows[i], "hits") == static_cast<double>(hits));
+        CHECK(number(rows[i], "irradiance") ==
+              doctest::Approx(power / (std::numbers::pi * radius * radius)).epsilon(1e-12));
+        CHECK(glm::dvec3(number(rows[i], "x"), number(rows[i], "y"), number(rows[i], "z")) == centre);
+        CHECK(number(rows[i], "nz") == doctest::Approx(normal.z));
+        CHECK(number(rows[i], "radius") == radius);
+        CHECK(rows[i].at("vertex") == "-1");
       }
     }
   }
@@ -129,7 +135,8 @@ TEST_SUITE("end to end") {
       return support::content_of(path);
     };
     const std::string with = written(" --standard-error");
-    CHECK(with.starts_with("disc,hits,irradiance,standard_error,upper_bound,standard_error_weak\n"));
+    CHECK(with.starts_with(
+        "disc,x,y,z,nx,ny,nz,radius,vertex,hits,irradiance,standard_error,upper_bound,standard_error_weak\n"));
     std::string without;
     for (const std::string& row : rows_of(with)) {
       const auto from_end = row.rfind(',', row.rfind(',', row.rfind(',') - 1) - 1);
@@ -154,7 +161,7 @@ TEST_SUITE("end to end") {
     }
     CHECK(errors > 0);
     CHECK(errors < 40);
-    CHECK("disc,hits,irradiance\n" + without == written(""));
+    CHECK("disc,x,y,z,nx,ny,nz,radius,vertex,hits,irradiance\n" + without == written(""));
   }
 
   TEST_CASE("photons of a ray file: their rays may be apart, pairs have the file's numbers, errors are of photons") {
@@ -404,11 +411,14 @@ TEST_SUITE("end to end") {
             Json{{"r", red.at("mean_irradiance")}, {"g", green.at("mean_irradiance").at("g")}});
       const auto lines = [&](const char* name) { return figures::split(content_of(folder.path(name)), '\n'); };
       CHECK(lines("both")[0] ==
-            "disc,hits,irradiance_r,standard_error_r,upper_bound_r,standard_error_weak_r,irradiance_g,standard_error_g,"
+            "disc,x,y,z,nx,ny,nz,radius,vertex,hits,irradiance_r,standard_error_r,upper_bound_r,standard_error_weak_r,"
+            "irradiance_g,standard_error_g,"
             "upper_bound_g,standard_error_weak_g");
       for (std::size_t line = 1; line < 3; ++line) {
-        const std::string of_green = lines("green")[line];
-        CHECK(lines("both")[line] == lines("red")[line] + of_green.substr(of_green.find(',', of_green.find(',') + 1)));
+        const std::string whole = lines("green")[line];
+        std::string_view of_green = whole;
+        for (int column = 0; column < 10; ++column) of_green.remove_prefix(of_green.find(',') + 1);
+        CHECK(lines("both")[line] == fmt::format("{},{}", lines("red")[line], of_green));
       }
     }
     const Finished table = detp(Arguments{"run", "--discs", discs, "--ray-file", both, "--format", "csv"});
@@ -431,6 +441,35 @@ TEST_SUITE("end to end") {
               .find("there is no band \"blue\"; there are r, g, and all for their sum") != std::string::npos);
     CHECK(refused("@cornell --target-noise 5% --noise-of r").find("there is one without a name") != std::string::npos);
     CHECK(refused("@cornell --noise-of r").find("give --target-noise or --target-error") != std::string::npos);
+  }
+
+  TEST_CASE("light on faces adds up to that on materials, in a file and in the answer") {
+    const support::ScratchFolder folder;
+    const std::string file = folder.path("faces.csv");
+    const Json json = result_of("run @cornell --rays 20000 --per-face " + file);
+    std::map<std::string, double> light;
+    double hits = 0;
+    for (const CsvRow& row : csv_rows(content_of(file))) {
+      light[row.at("material")] += number(row, "area") * number(row, "irradiance");
+      hits += number(row, "hits");
+    }
+    CHECK(json["faces"]["groups"].empty());
+    REQUIRE(json["faces"]["materials"].size() == light.size());
+    for (const Json& material : json["faces"]["materials"]) {
+      CHECK(material["light"].get<double>() == doctest::Approx(light.at(material["name"])).epsilon(1e-9));
+      CHECK(material["upper_bound"].get<double>() > material["light"].get<double>());
+      hits -= material["hits"].get<double>();
+    }
+    CHECK(hits == 0);
+    CHECK(detp("run @cornell --rays 20000 --per-face " + file).out.find("faces     light on white") !=
+          std::string::npos);
+    const std::string rays = folder.file("r.csv", "ox,oy,oz,dx,dy,dz\n0,0,0,0,0,1\n");
+    check_refused(
+        {{"run @cornell --estimator gather --per-face " + file, "gather has none"},
+         {"run @cornell --field isotropic --per-face " + file, "photons that land on a scene's triangles"},
+         {"run @cornell --ray-file " + rays + " --per-face " + file, "photons that land on a scene's triangles"},
+         {"run @uniform --samples 10 --rays 10 --per-face " + file, "needs a mesh"},
+         {"run @cornell --target-noise 5% --per-face " + file, "a run until an error does not"}});
   }
 
   TEST_CASE("photons in colours: ledgers, and a run until the error of a band") {

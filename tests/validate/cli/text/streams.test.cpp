@@ -120,7 +120,7 @@ TEST_SUITE("end to end") {
     const std::string pipe = folder.path("pipe");
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     Process process(words("run @uniform --samples 10 --rays 10 --per-disc " + pipe));
-    CHECK(content_of(pipe).starts_with("disc,hits,irradiance\n0,"));
+    CHECK(content_of(pipe).starts_with("disc,x,y,z,nx,ny,nz,radius,vertex,hits,irradiance\n0,"));
     CHECK(process.finish().code == 0);
   }
 }
