@@ -72,7 +72,8 @@ class CsvReader {
       const std::string_view text = trimmed(lines_.line());
       if (text.starts_with('#'))
         comment_ = trimmed(text.substr(1));
-      else if (!text.empty() && !(order_.empty() && text.starts_with("sep=")))  // a hint for spreadsheets
+      else if (!text.empty() && text != "\x1a" &&              // the end of a file of DOS
+               !(order_.empty() && text.starts_with("sep=")))  // a hint for spreadsheets
         return true;
     }
     return false;
@@ -157,6 +158,7 @@ class CsvReader {
   void read_row() {
     const std::string_view line = lines_.line();
     row_.place(lines_.number());
+    look_for_points(line);
     if (are_plain_numbers(line, [&](std::size_t i, double value) { set(i, value); })) return;
     const std::vector<std::string_view> fields = fields_of(line);
     if (fields.size() != order_.size())
@@ -217,6 +219,7 @@ class CsvReader {
       std::string_view text = file_.buffered().substr(0, at_once);
       text = text.substr(0, text.rfind('\n') + 1);
       if (text.empty()) return rows;  // a long line
+      look_for_points(text);
       std::size_t count_of_parts = 0;
       for (; !text.empty(); ++count_of_parts) {
         const std::size_t end = std::min(text.find('\n', std::min(of_part, text.size() - 1)), text.size() - 1);
@@ -241,19 +244,45 @@ class CsvReader {
     return rows;
   }
 
-  [[nodiscard]] double number(const TableColumn& column, std::string_view field) const {
+  /// Where fields do not end at commas, decimals may have points or commas, but not both: a comma could stand between thousands.
+  void look_for_points(std::string_view text) {
+    if (separator_ == ',') return;
+    points_ = points_ || text.find('.') != std::string_view::npos;
+    require_one_decimal_sign();
+  }
+  void require_one_decimal_sign() const {
+    if (points_ && commas_) lines_.fail("some numbers have decimal points, others decimal commas");
+  }
+
+  /// A number as Fortran writes it (1.5D-01), or with a decimal comma where fields do not end at commas, as C writes it.
+  [[nodiscard]] std::string in_c(std::string_view field) const {
+    std::string text(field);
+    if (std::ranges::count_if(text, [](char one) { return one == 'd' || one == 'D'; }) == 1 && text.size() > 1)
+      text[text.find_first_of("dD")] = 'e';
+    if (separator_ != ',' && std::ranges::count(text, ',') == 1 && text.find('.') == std::string::npos)
+      text[text.find(',')] = '.';
+    return text;
+  }
+
+  [[nodiscard]] double number(const TableColumn& column, std::string_view field) {
     if (field.empty() && column.empty) return *column.empty;
     if (field.empty()) lines_.fail(fmt::format("{} is empty; a number is needed", column.name));
     if (const auto value = number_in(field)) return *value;
-    lines_.fail(fmt::format(
-        "{} is {}, which is not a number{}", column.name, detp::quoted(field),
-        separator_ != ',' && field.find(',') != std::string_view::npos ? "; decimals need a point, not a comma" : ""));
+    if (const auto value = number_in(in_c(field))) {
+      commas_ = commas_ || field.find(',') != std::string_view::npos;
+      require_one_decimal_sign();
+      return *value;
+    }
+    lines_.fail(fmt::format("{} is {}, which is not a number{}", column.name, detp::quoted(field),
+                            field.find(',') != std::string_view::npos ? "; decimals need a point" : ""));
   }
 
   InputFile file_;
   TextLines lines_;
   const ColumnChoice& choice_;
   char separator_ = ',';            ///< of fields; ' ': any number of blanks
+  bool points_ = false;             ///< some line may have decimal points
+  bool commas_ = false;             ///< some number has a decimal comma
   std::string comment_;             ///< the last one before the header
   std::vector<std::size_t> order_;  ///< for each of the file's columns, its index in row_.columns(), or `unused`
   TableRow row_;

@@ -141,7 +141,8 @@ TEST_SUITE("files of other programs") {
     for (const std::string content :
          {"a,b\n1,0.5\n4,-2\n", "B,A\n0.5,1\n-2,4\n", "a;b\n1;0.5\n4;-2\n", "a\tb\n1\t0.5\n4\t-2\n",
           "a  b\n  1   0.5\n4 -2\n", "# by hand\n# again\na,b\n1,0.5\n# middle\n4,-2\n", "# a b\n1 0.5\n4 -2\n",
-          "#a,b\n1,0.5\n4,-2\n", "sep=;\na;b\n1;0.5\n4;-2\n", "\"a\",\"b\"\n\"1\",\"0.5\"\n4,-2\n",
+          "#a,b\n1,0.5\n4,-2\n", "sep=;\na;b\n1;0.5\n4;-2\n", "a;b\n1;0,5\n4;-2,0\n",
+          "a b\n1,0D+00 5D-1\n4 -2d0\n\x1a\n", "\"a\",\"b\"\n\"1\",\"0.5\"\n4,-2\n",
           "\"\",\"a\",\"b\"\n\"1\",1,0.5\n\"2\",4,-2\n", "name,b,a,\n\"one, \"\"two\"\"\",0.5,1,\nx,-2,4,7\n",
           "\xEF\xBB\xBF a ; b ;note\r\n1;0.5;\r\n4;-2;x y\r\n"}) {
       CAPTURE(content);
@@ -191,7 +192,10 @@ TEST_SUITE("bad input") {
          {"a,c\n", ":1: the header has no column b; known are a,b,c"},
          {"1,2\n", ":1: the first line has numbers, and no heading is before it; expected a header a,b,c"},
          {"# a\n1,2\n", ":2: the first line has numbers"},
-         {"a;b\n1;0,5\n", ":2: b is \"0,5\", which is not a number; decimals need a point, not a comma"},
+         {"a;b\n1.5;x\n", ":2: b is \"x\", which is not a number"},
+         {"a;b\n1.5;2\n1;0,5\n", ":3: some numbers have decimal points, others decimal commas"},
+         {"a;b\n1;0,5\n1.5;2\n", ":3: some numbers have decimal points, others decimal commas"},
+         {"a;b\n1;1,000,000\n", ":2: b is \"1,000,000\", which is not a number; decimals need a point"},
          {"a\tb\n1 2\n", ":2: 1 fields, but the header has 2 columns, separated by tabs"},
          {"a,b\n1,\"2\n", ":2: a quote has no end"},
          {"a,b\n1,\"2\" 3\n", ":2: there is text between a quote and the next field"},
