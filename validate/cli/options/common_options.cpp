@@ -127,6 +127,8 @@ void require_apart(const std::vector<NamedFile>& outputs, const std::vector<Name
   for (const NamedFile& output : outputs)
     for (const NamedFile& input : inputs)
       require_apart(output, input.path, input.option.starts_with("the") ? input.option : "the file of " + input.option);
+  if (std::ranges::count(inputs, "-", &NamedFile::path) > 1)
+    throw std::invalid_argument("only one input can be standard input (-)");
   const bool some_exist = std::ranges::any_of(outputs, is_file, &NamedFile::path);
   for (const NamedFile& input : inputs)
     if (some_exist && input.option == "SCENE" && sim::suffix_of(input.path) == ".obj" && is_file(input.path))

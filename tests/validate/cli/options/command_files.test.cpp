@@ -124,6 +124,7 @@ TEST_SUITE("bad input") {
       refusals.push_back({scene + "--write-discs " + folder.path(name), "writes .csv, .ply"});
       refusals.push_back({scene + "--write-rays " + folder.path(name), "writes .csv, .ply"});
     }
+    refusals.push_back({"run --discs - --ray-file -", "only one input can be standard input"});
     refusals.push_back({run + "--format csv -o " + folder.path("x.json"), "--format csv contradicts"});
     refusals.push_back({run + "--format json -o " + folder.path("x.csv"), "--format json contradicts"});
     refusals.push_back({run + "--format json -o " + folder.path("x.svg"), "--format json contradicts"});
