@@ -6,6 +6,7 @@
 
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/sim/files/table_writer.hpp"
 #include "detp/validate/accuracy/judged_samples.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
