@@ -171,8 +171,8 @@ void ResultFile::write_vtp() {
       Array{"connectivity", true, 1, vertices, [](std::uint64_t i, std::size_t) { return static_cast<double>(i); }},
       Array{"offsets", true, 1, vertices, [](std::uint64_t i, std::size_t) { return static_cast<double>(i + 1); }}};
   const std::array<Array, 2> polys{
-      Array{"connectivity", true, 3, polygons,
-            [&](std::uint64_t i, std::size_t corner) { return static_cast<double>(places_.triangles[i][corner]); }},
+      Array{"connectivity", true, 1, 3 * polygons,
+            [&](std::uint64_t i, std::size_t) { return static_cast<double>(places_.triangles[i / 3][i % 3]); }},
       Array{"offsets", true, 1, polygons, [](std::uint64_t i, std::size_t) { return 3 * static_cast<double>(i + 1); }}};
   std::vector<const Array*> all;
   std::uint64_t offset = 0;
@@ -185,11 +185,9 @@ void ResultFile::write_vtp() {
       "NumberOfPolys=\"{}\">\n",
       points, vertices, polygons);
   const auto declare = [&](const Array& one) {
-    // In connectivity each element is a number.
-    const std::size_t components = one.name == "connectivity" ? 1 : one.components;
     text += fmt::format(
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-        one.whole ? "Int64" : "Float64", plain(one.name), components, offset);
+        one.whole ? "Int64" : "Float64", plain(one.name), one.components, offset);
     offset += sizeof(std::uint64_t) + one.bytes();
     all.push_back(&one);
   };

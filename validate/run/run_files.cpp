@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -203,7 +204,8 @@ WrittenRun write_files(const RunFiles& files, const Job& job, const RunAnswer& a
   }
   try {
     if (files.per_disc) write_per_disc(*files.per_disc, answer.run, job, stop);
-    if (files.per_face && answer.faces) write_per_face(*files.per_face, *answer.faces, job, stop);
+    if (files.per_face && !answer.faces) throw std::invalid_argument("a file of faces needs RunRequest::faces");
+    if (files.per_face) write_per_face(*files.per_face, *answer.faces, job, stop);
     if (files.pairs) write_pairs(*files.pairs, answer.run, job.file_order, stop);
   } catch (const sim::Stopped& stopped) {
     written.notices.push_back(fmt::format("{}; the file is not kept", stopped.what()));

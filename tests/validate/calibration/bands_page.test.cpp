@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "detp/sim/search/photon_sums.hpp"
+#include "detp/sim/search/irradiance.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "support/csv_answer.hpp"
 #include "support/pages.hpp"
@@ -57,6 +57,7 @@ TEST_SUITE("figures") {
   TEST_CASE("the page of unit costs has the figures of bands.csv") {
     const std::vector<CsvRow> data = published("bands.csv");
     const std::string page = source_text("validate/calibration/README.md");
+    check_says(page, fmt::format("{:.0f} bytes more for each disc and band", sim::error_bytes));
     for (const std::string errors : {"no", "yes"})
       for (const int bands : {3, 8, 31}) {
         const std::vector<Row> fitted = rows_of(data, bands, errors, "yes");
