@@ -16,19 +16,18 @@
 namespace detp::sim {
 namespace {
 
-/// Half of it is the area vector of the triangle.
-glm::dvec3 cross_of(const Mesh& mesh, std::uint32_t triangle) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  return glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
-}
-
 void add_areas(const Mesh& mesh, SurfaceParts& parts) {
   for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle)
     for (const std::uint32_t part : parts.parts_of(triangle))
-      parts.areas[part] += glm::length(cross_of(mesh, triangle)) / 2;
+      parts.areas[part] += glm::length(area_vector(mesh, triangle));
 }
 
 }  // namespace
+
+glm::dvec3 area_vector(const Mesh& mesh, std::uint32_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return 0.5 * glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+}
 
 SurfaceParts parts_by_triangle(const Mesh& mesh) {
   SurfaceParts parts{.areas = std::vector<double>(mesh.triangles.size())};
@@ -90,7 +89,7 @@ Outcome sums_of_parts(const PathRays& rays, const Mesh& mesh, const SurfaceParts
   for (; ray < rays.rays.size() && !check.requested_after(1); ++ray) {
     const std::uint32_t triangle = rays.triangles[ray];
     if (triangle == no_triangle) continue;
-    if (front_facing && !(glm::dot(cross_of(mesh, triangle), rays.rays[ray].direction) < 0)) continue;
+    if (front_facing && !(glm::dot(area_vector(mesh, triangle), rays.rays[ray].direction) < 0)) continue;
     for (const std::uint32_t part : parts.parts_of(triangle)) hits.add_hit(ray, part);
   }
   hits.store_results(ray);

@@ -25,6 +25,9 @@ struct SurfaceParts {
   }
 };
 
+/// The normal of the triangle's front, as long as its area.
+[[nodiscard]] glm::dvec3 area_vector(const Mesh& mesh, std::uint32_t triangle);
+
 /// Each triangle a part.
 [[nodiscard]] SurfaceParts parts_by_triangle(const Mesh& mesh);
 /// By the material of the front.

@@ -73,9 +73,9 @@ std::vector<std::array<std::uint32_t, 3>> triangles_of_discs(const Job& job) {
   std::unordered_multimap<std::uint32_t, std::uint32_t> discs_at;
   for (std::uint32_t disc = 0; disc < job.vertices.size(); ++disc) discs_at.emplace(job.vertices[disc], disc);
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (const auto& corners : mesh.triangles) {
-    const glm::dvec3 normal = glm::cross(mesh.positions[corners[1]] - mesh.positions[corners[0]],
-                                         mesh.positions[corners[2]] - mesh.positions[corners[0]]);
+  for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
+    const auto& corners = mesh.triangles[triangle];
+    const glm::dvec3 normal = sim::area_vector(mesh, triangle);
     std::array<std::uint32_t, 3>& own = triangles.emplace_back();
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const std::uint32_t vertex = mesh.file_vertices.empty() ? corners[i] : mesh.file_vertices[corners[i]];
@@ -169,10 +169,10 @@ void write_per_face(const std::string& path, const LightOnFaces& faces, const Jo
   for (std::uint32_t face = 0; face < mesh.triangles.size(); ++face) {
     const auto& [a, b, c] = mesh.triangles[face];
     const glm::dvec3 place = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
-    const glm::dvec3 cross = glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
-    const double twice = glm::length(cross);
-    const glm::dvec3 normal = twice > 0 ? cross / twice : glm::dvec3{0.0};
-    row = {static_cast<double>(face), place.x, place.y, place.z, normal.x, normal.y, normal.z, twice / 2};
+    const glm::dvec3 facing = sim::area_vector(mesh, face);
+    const double area = glm::length(facing);
+    const glm::dvec3 normal = area > 0 ? facing / area : glm::dvec3{0.0};
+    row = {static_cast<double>(face), place.x, place.y, place.z, normal.x, normal.y, normal.z, area};
     row.push_back(faces.by_material.parts.set_of_triangle[face]);
     row.push_back(grouped ? mesh.groups.of_triangle[face] : -1.0);
     row.push_back(static_cast<double>(faces.triangles.hits[face]));
