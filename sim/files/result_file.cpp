@@ -140,8 +140,12 @@ void ResultFile::write(std::span<const double> row) {
     for (std::size_t i = 0; i < row.size(); ++i) kept_[i].push_back(row[i]);
   } else if (suffix_ == ".csv") {
     std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) line += (i == 0 ? "" : ",") + in_csv(row[i], columns_[i]);
-    file_.write(line + "\n");
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (i != 0) line += ',';
+      line += in_csv(row[i], columns_[i]);
+    }
+    line += '\n';
+    file_.write(line);
   } else {
     if (suffix_ == ".ply" && rows_are_triangles()) write_triangle(file_, places_.triangles[written_]);
     for (std::size_t i = 0; i < row.size(); ++i) write_number(row[i], columns_[i].kind);
