@@ -9,14 +9,17 @@ namespace detp::support {
 
 /// Whether every element is closed, in the right order, and no text has a bare < or &.
 inline bool is_well_formed(const std::string& xml) {
-  static const std::regex token("<[^<>]*>|[^<>]+|.");
   static const std::regex reference("&(amp|lt|gt|quot);");
   std::vector<std::string> open;
-  for (std::sregex_iterator one(xml.begin(), xml.end(), token); one != std::sregex_iterator(); ++one) {
-    const std::string text = one->str();
-    if (std::regex_replace(text, reference, "").find('&') != std::string::npos) return false;
-    if (text[0] != '<') {
-      if (text[0] == '>') return false;
+  std::string text;
+  for (std::size_t at = 0; at < xml.size(); at += text.size()) {
+    const std::size_t end = xml.find_first_of("<>", at + 1);
+    const bool is_tag = xml[at] == '<' && end != std::string::npos && xml[end] == '>';
+    text = xml.substr(at, is_tag ? end + 1 - at : end == std::string::npos ? end : end - at);
+    if (text.find('&') != std::string::npos && std::regex_replace(text, reference, "").find('&') != std::string::npos)
+      return false;
+    if (!is_tag) {
+      if (text[0] == '<' || text[0] == '>') return false;
     } else if (text.starts_with("</")) {
       if (open.empty() || "</" + open.back() + ">" != text) return false;
       open.pop_back();

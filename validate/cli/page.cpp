@@ -1,10 +1,18 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 
 #include "command.hpp"
 #include "command_line.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/validate/accuracy/accuracy_plan.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
@@ -47,13 +55,40 @@ std::string parts_csv(const Json& report) {
   return table.csv();
 }
 
+/// A file for a picture, which ends with this.
+class PictureFile {
+ public:
+  PictureFile() {
+    const int file = mkstemps(path_.data(), 4);
+    if (file < 0) throw sim::FileError(path_, "the picture cannot be kept there");
+    close(file);
+  }
+  ~PictureFile() { std::filesystem::remove(path_, ignored_); }
+  PictureFile(const PictureFile&) = delete;
+  PictureFile& operator=(const PictureFile&) = delete;
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] std::string bytes() const {
+    std::ifstream file(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+ private:
+  std::string path_ = (std::filesystem::temp_directory_path() / "detp-XXXXXX.png").string();
+  std::error_code ignored_;
+};
+
 Result run_report(validate::ReportRequest request, const CommonOptions& common, const std::stop_token& stop) {
   if (!common.output) throw std::invalid_argument("report writes a page: give -o FILE.html");
   check_target(request);
   if (common.seed != CommonOptions{}.seed) request.common = {"--seed", std::to_string(common.seed)};
   if (common.threads != 0) request.common.insert(request.common.end(), {"--threads", std::to_string(common.threads)});
   const ProgressLine progress(common.quiet);
-  const auto ask_program = [&](const std::vector<std::string>& words) { return ask(words, stop); };
+  const PictureFile picture;
+  const auto ask_program = [&](std::vector<std::string> words) {
+    std::ranges::replace(words, std::string(validate::picture_name), picture.path());
+    return ask(words, stop);
+  };
   Json report = validate::answer(request, ask_program, stop, progress.report());
   Result result;
   result.inputs = std::move(report["inputs"]);
@@ -65,7 +100,7 @@ Result run_report(validate::ReportRequest request, const CommonOptions& common, 
   Result shown = result;
   const Json whole = envelope("report", common, sim::thread_count(common.threads), shown);
   sim::OutputFile file(*common.output, stop);
-  file.write(validate::page_html(whole));
+  file.write(validate::page_html(whole, picture.bytes()));
   file.commit();
   result.output_is_written = true;
   return result;

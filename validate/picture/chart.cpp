@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "detp/model/vocabulary/quoted.hpp"
+#include "labels.hpp"
 
 namespace detp::validate {
 namespace {
@@ -34,14 +35,6 @@ double text_width(const std::string& text) {
 
 std::string tick_label(const ChartAxis& axis, double value) {
   return axis.label != nullptr ? axis.label(value) : fmt::format("{:.6g}", value);
-}
-
-/// Steps of 1, 2 or 5 times a power of ten that divide the range into at most `most` parts.
-double step_of(double range, int most) {
-  const double power = std::pow(10.0, std::floor(std::log10(range / most)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (range / (factor * power) <= most) return factor * power;
-  return 10 * power;
 }
 
 /// One axis: which values it has, and where they are.
@@ -75,29 +68,7 @@ class Scale {
 
   /// With room for labels of this ChartLayout::width or height.
   [[nodiscard]] std::vector<double> ticks(double room) const {
-    const int most = std::max(1, static_cast<int>(std::abs(end_ - begin_) / room));
-    std::vector<double> found;
-    if (!axis_.logarithmic || high_ - low_ < 1) {  // less than a decade has too few powers of ten
-      const double low = axis_.logarithmic ? std::pow(10.0, low_) : low_;
-      const double high = axis_.logarithmic ? std::pow(10.0, high_) : high_;
-      const double step = step_of(high - low, axis_.logarithmic ? std::max(1, most / 2) : most);
-      for (double i = std::ceil(low / step); i * step <= high; ++i) found.push_back(i * step);
-      return found;
-    }
-    for (const std::vector<double>& digits : {std::vector<double>{1, 2, 5}, {1, 3}, {1}}) {
-      found.clear();
-      for (double power = std::floor(low_); power <= high_; ++power)
-        for (const double digit : digits) {
-          const double at = power + std::log10(digit);
-          if (at >= low_ && at <= high_) found.push_back(digit * std::pow(10.0, power));
-        }
-      if (static_cast<int>(found.size()) <= most) return found;
-    }
-    const auto decades = static_cast<int>(found.size());
-    const int every = (decades + most - 1) / most;
-    std::vector<double> some;
-    for (int i = 0; i < decades; i += every) some.push_back(found[static_cast<std::size_t>(i)]);
-    return some;
+    return ticks_between(low_, high_, axis_.logarithmic, std::max(1, static_cast<int>(std::abs(end_ - begin_) / room)));
   }
 
  private:

@@ -26,7 +26,40 @@ double luminance(std::string_view colour) {
   return sum;
 }
 
+/// Steps of 1, 2 or 5 times a power of ten that divide the range into at most `most` parts.
+double step_of(double range, int most) {
+  const double power = std::pow(10.0, std::floor(std::log10(range / most)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (range / (factor * power) <= most) return factor * power;
+  return 10 * power;
+}
+
 }  // namespace
+
+std::vector<double> ticks_between(double low, double high, bool logarithmic, int most) {
+  std::vector<double> found;
+  if (!logarithmic || high - low < 1) {  // less than a decade has too few powers of ten
+    const double from = logarithmic ? std::pow(10.0, low) : low;
+    const double to = logarithmic ? std::pow(10.0, high) : high;
+    const double step = step_of(to - from, logarithmic ? std::max(1, most / 2) : most);
+    for (double i = std::ceil(from / step); i * step <= to; ++i) found.push_back(i * step);
+    return found;
+  }
+  for (const std::vector<double>& digits : {std::vector<double>{1, 2, 5}, {1, 3}, {1}}) {
+    found.clear();
+    for (double power = std::floor(low); power <= high; ++power)
+      for (const double digit : digits) {
+        const double at = power + std::log10(digit);
+        if (at >= low && at <= high) found.push_back(digit * std::pow(10.0, power));
+      }
+    if (static_cast<int>(found.size()) <= most) return found;
+  }
+  const auto decades = static_cast<int>(found.size());
+  const int every = (decades + most - 1) / most;
+  std::vector<double> some;
+  for (int i = 0; i < decades; i += every) some.push_back(found[static_cast<std::size_t>(i)]);
+  return some;
+}
 
 std::string rays_label(double rays) {
   if (rays < 100) return fmt::format("{:g}", rays);

@@ -2,11 +2,15 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "detp/model/vocabulary/technique.hpp"
 
 /// How pictures show numbers and techniques: short texts of numbers; a code of letters and a colour of a technique.
 namespace detp::validate {
+
+/// Round numbers of an axis from low to high, at most `most`. Ends of a logarithmic axis are logarithms to base 10; its ticks are not.
+[[nodiscard]] std::vector<double> ticks_between(double low, double high, bool logarithmic, int most);
 
 /// 100 000 as "1e5", 12 345 as "1.23e4", 50 as "50".
 [[nodiscard]] std::string rays_label(double rays);

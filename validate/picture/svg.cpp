@@ -65,6 +65,13 @@ void Svg::rectangle(const Rectangle& place, std::string_view fill, std::string_v
   text_ += tip.empty() ? "/>\n" : fmt::format("><title>{}</title></rect>\n", xml_text(tip));
 }
 
+void Svg::image(const Rectangle& place, std::string_view address) {
+  text_ += fmt::format(
+      "<image xmlns:xlink=\"http://www.w3.org/1999/xlink\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" "
+      "height=\"{:.2f}\" xlink:href=\"{}\"/>\n",
+      place.x, place.y, place.width, place.height, address);
+}
+
 void Svg::line(double x1, double y1, double x2, double y2, double width) {
   text_ += fmt::format(
       "<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" stroke=\"{}\" stroke-width=\"{:.2f}\"/>\n", x1, y1,

@@ -47,6 +47,8 @@ class Svg {
   /// `tip`, if not empty, is shown when the pointer is over the rectangle.
   void rectangle(const Rectangle& place, std::string_view fill, std::string_view stroke = "none",
                  std::string_view tip = {});
+  /// A picture of pixels, as "data:image/png;base64,…".
+  void image(const Rectangle& place, std::string_view address);
   void line(double x1, double y1, double x2, double y2, double width = 1);
   /// A thin line across the picture: of the grid, or dashed.
   void rule(double x1, double y1, double x2, double y2, bool dashed = false);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "detp/validate/picture/bitmap.hpp"
 #include "detp/validate/picture/labels.hpp"
 #include "page_assets.hpp"
 #include "parts.hpp"
@@ -20,23 +21,13 @@ std::string json_in_html(const Json& report) {
   return safe;
 }
 
-/// The digest of 64 hexadecimal digits in base 64, as a content security policy has it.
+/// A digest in hexadecimal digits, as a content security policy has it.
 std::string base64_of_hex(std::string_view hex) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  constexpr std::string_view hex_digits = "0123456789abcdef";
-  std::string bits;
-  for (const char c : hex) {
-    const std::size_t value = hex_digits.find(c);
-    for (int bit = 3; bit >= 0; --bit) bits += (value >> bit & 1) != 0 ? '1' : '0';
-  }
-  std::string text;
-  for (std::size_t i = 0; i < bits.size(); i += 6) {
-    std::size_t value = 0;
-    for (std::size_t j = i; j < i + 6; ++j) value = 2 * value + (j < bits.size() && bits[j] == '1' ? 1 : 0);
-    text += digits[value];
-  }
-  text.append((4 - text.size() % 4) % 4, '=');
-  return text;
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+    bytes += static_cast<char>(16 * digits.find(hex[i]) + digits.find(hex[i + 1]));
+  return base64(bytes);
 }
 
 /// A figure that is read first: what it is, the figure, and the rest.
@@ -82,8 +73,19 @@ std::string accuracy_card(const Json& answer) {
               fmt::format("in {}; {}", seconds_label(*seconds), words(accuracy, "estimator")));
 }
 
+/// The scene in the colours of its irradiance.
+std::string picture_figure(const Json& report, std::string_view png) {
+  if (png.empty()) return {};
+  const Json& run = answer_of(report, "picture");
+  return fmt::format(
+      "<figure><img alt=\"{} in the colours of its irradiance, and of its relative standard error\" "
+      "src=\"data:image/png;base64,{}\"><figcaption>Light on the surface, by {} {}.</figcaption></figure>\n",
+      xml_text(words(list(report, "inputs"), "scene")), base64(png), shown(list(run, "inputs"), "rays", count_words),
+      words(list(run, "inputs"), "field") == "photons" ? "pieces of photon paths" : "rays");
+}
+
 /// Technique, parameters, seconds, and what the accuracy costs: the top of the page.
-std::string answer_section(const Json& report) {
+std::string answer_section(const Json& report, std::string_view picture) {
   const Json& answer = list(report, "answer");
   std::string html = fmt::format("<header>\n<h1>Density estimation in <bdi>{}</bdi></h1>\n",
                                  xml_text(words(list(report, "inputs"), "scene")));
@@ -97,7 +99,7 @@ std::string answer_section(const Json& report) {
     if (warning.is_string())
       html += fmt::format("<p class=\"warning\" role=\"note\"><strong>Warning:</strong> {}</p>\n",
                           xml_text(warning.get<std::string>()));
-  return html + "</header>\n";
+  return html + picture_figure(report, picture) + "</header>\n";
 }
 
 /// Machine, version, seed; each part's command and seconds.
@@ -137,7 +139,7 @@ std::string origin_section(const Json& report) {
 
 }  // namespace
 
-std::string page_html(const Json& given) {
+std::string page_html(const Json& given, std::string_view picture) {
   // Names of files may be no valid UTF-8; what is printed as JSON is what is shown.
   const Json report = Json::parse(given.dump(-1, ' ', false, Json::error_handler_t::replace));
   std::string html = fmt::format(
@@ -150,8 +152,9 @@ std::string page_html(const Json& given) {
       "<link rel=\"icon\" href=\"data:,\">\n<title>detp: {}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
       base64_of_hex(page_css_digest), base64_of_hex(page_js_digest), xml_text(words(list(report, "inputs"), "scene")),
       page_css);
-  for (const auto section : {answer_section, choice_section, map_section, accuracy_section, comparison_section,
-                             verdict_section, effects_section, origin_section})
+  html += answer_section(report, picture);
+  for (const auto section : {choice_section, map_section, accuracy_section, comparison_section, verdict_section,
+                             effects_section, origin_section})
     html += section(report);
   return html + fmt::format(
                     "</main>\n<script type=\"application/json\" "

@@ -81,6 +81,7 @@ std::vector<ReportPart> parts_after_scene(const ReportRequest& request, const Js
   const ForecastRule of_accuracy{.tracing = 1.06, .reading = 1.42, .samples = 3.7, .fixed = 0.53};
   const ForecastRule of_map = quick ? ForecastRule{.tracing = 7.7, .reading = 5.5}
                                     : ForecastRule{.tracing = 21.3, .reading = 17.2, .fixed = 2.15};
+  const ForecastRule of_picture{.tracing = 1.5, .reading = 1.5, .samples = 0.3, .triangles = 0.5, .fixed = 0.4};
   const ForecastRule of_verdicts =
       quick ? ForecastRule{.tracing = 0.79, .reading = 0.62, .samples = 0.085, .triangles = 0.18}
             : ForecastRule{.tracing = 11.2, .samples = 13.4, .triangles = 2.9};
@@ -90,6 +91,10 @@ std::vector<ReportPart> parts_after_scene(const ReportRequest& request, const Js
   return {{.name = "choice",
            .words = Words{"choose", request.scene} + workload_words(request) + Words{"--analyze"},
            .forecast_seconds = of_choice.seconds(scene)},
+          {.name = "picture",
+           .words = Words{"run", request.scene} + workload_words(request) +
+                    Words{"--standard-error", "--picture-width", "400", "--picture", std::string(picture_name)},
+           .forecast_seconds = of_picture.seconds(scene)},
           {.name = "accuracy",
            .words = Words{"accuracy", request.scene} + target + scene_words(request) +
                     (quick ? Words{"--effort", "quick"} : Words{}),
@@ -263,7 +268,7 @@ std::string ReportPart::command() const {
 const Fields<ReportPart>& part_fields() {
   using Part = ReportPart;
   static const Fields<Part> fields{
-      Field<Part>("name", "", "scene, choice, accuracy, map or verdicts", &Part::name).in({{"part"}}),
+      Field<Part>("name", "", "scene, choice, picture, accuracy, map or verdicts", &Part::name).in({{"part"}}),
       {"command", "", "that gives this part's answer", &Part::command},
       {"seconds", "s", "that it took", &Part::seconds},
       {"forecast_seconds", "s", "what was foreseen; null for the scene", &Part::forecast_seconds},

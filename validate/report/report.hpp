@@ -4,6 +4,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "detp/sim/base/phase.hpp"
@@ -41,10 +42,13 @@ struct ReportPart {
   [[nodiscard]] std::string command() const;
 };
 
+/// In the words of a command: the file of its picture, which page_html takes as bytes.
+inline constexpr std::string_view picture_name = "picture.png";
+
 /// The JSON that a command's words answer with. May throw std::invalid_argument, sim::Stopped.
 using Ask = std::function<Json(const std::vector<std::string>& words)>;
 
-/// The report as JSON: `inputs`, `answer`, `warnings`, `parts` (scene, choice, accuracy, map, verdicts, each with the answer of its command),
+/// The report as JSON: `inputs`, `answer`, `warnings`, `parts` (scene, choice, picture, accuracy, map, verdicts, each with the answer of its command),
 /// `seconds`, `forecast_seconds`, `stopped`. A stop request ends it with the parts that are made. Throws as `ask`.
 [[nodiscard]] Json answer(const ReportRequest& request, const Ask& ask, const std::stop_token& stop = {},
                           const sim::ReportPhase& progress = {});
@@ -55,8 +59,8 @@ using Ask = std::function<Json(const std::vector<std::string>& words)>;
 [[nodiscard]] std::vector<FieldText> describe_report();
 
 /// The report as HTML: complete, with nothing outside of it. All text of the report is escaped, and a content security policy allows only the
-/// page's own style and script. The same report gives the same bytes. Throws std::invalid_argument if the report has numbers where a
+/// page's own style and script. The same report gives the same bytes. `picture`: PNG of the part `picture`; empty: none. Throws std::invalid_argument if the report has numbers where a
 /// chart needs others (not finite).
-[[nodiscard]] std::string page_html(const Json& report);
+[[nodiscard]] std::string page_html(const Json& report, std::string_view picture = {});
 
 }  // namespace detp::validate

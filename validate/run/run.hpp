@@ -15,6 +15,7 @@
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/job/job.hpp"
+#include "detp/validate/picture/colour_scale.hpp"
 #include "detp/validate/stopping/run_until.hpp"
 #include "detp/validate/whole/whole.hpp"
 #include "job_run.hpp"
@@ -138,19 +139,34 @@ struct JobAndRun {
 [[nodiscard]] JobAndRun answer(const RunRequest& request, const std::stop_token& stop = {},
                                const sim::ReportPhase& progress = {});
 
+/// From where a picture shows the scene, and to where.
+using SeenBetween = std::pair<glm::dvec3, glm::dvec3>;
+
+/// A picture of the scene in the colours of its irradiance. Discs at all corners of a mesh colour its triangles; other discs the surface
+/// around them (sim::NearestDisc); without a mesh they are drawn as they are.
+struct Picture {
+  static constexpr int usual_width = 800;
+  std::string path;                      ///< .png or .svg
+  std::optional<SeenBetween> view = {};  ///< default: sim::view_of_most
+  Scaling scaling = Scaling::automatic;
+  int width = usual_width;  ///< pixels of a view whose width is 4/3 of its height; others have as many in all
+};
+
 /// Files of what a run found. They appear complete or not at all.
 struct RunFiles {
   std::optional<std::string> per_disc = {};  ///< place, hits and irradiance of each disc (sim::ResultFile)
   std::optional<std::string> per_face = {};  ///< the same of each triangle
   std::optional<std::string> pairs = {};     ///< "ray,disc" of each pair, as CSV
+  std::optional<Picture> picture = {};       ///< the irradiance on the scene, and its standard error if that is known
 };
 
 struct WrittenRun {
   std::vector<std::string> notices = {};
+  std::optional<SeenBetween> picture = {};
   std::optional<sim::Progress> stopped = {};  ///< if a stop request ended the run, the writing or the timed runs
 };
 
-/// Throws sim::FileError.
+/// Throws sim::FileError; std::invalid_argument for a picture of discs that are not in memory, or of a view that is none.
 [[nodiscard]] WrittenRun write_files(const RunFiles& files, const Job& job, const RunAnswer& answer,
                                      const std::stop_token& stop = {});
 

@@ -238,6 +238,11 @@ Json parts_json(const Job& job, const LightOnParts& light) {
   return json;
 }
 
+std::array<double, 6> numbers_of(const SeenBetween& view) {
+  const auto& [from, to] = view;
+  return {from.x, from.y, from.z, to.x, to.y, to.z};
+}
+
 Json faces_json(const Run& run) {
   const auto& faces = run.answer.faces;
   if (!faces) return left_out();
@@ -428,6 +433,11 @@ const Fields<ShownRun>& run_fields() {
                  }))
           .in_json_alone(),
       Field<Run>("faces", "", "light that lands on the surface, by material and by group", faces_json).in_json_alone(),
+      Field<Run>("picture", "", "of --picture: view, from where and to where it shows the scene, as --view takes it",
+                 [](const Run& run) {
+                   return run.picture ? Json{{"view", numbers_of(*run.picture)}} : left_out();
+                 })
+          .in_json_alone(),
       effects_field<Run>([](const Run& run) { return to_json(run.job.observed().effects); }),
       Field<Run>("warnings", "", "all that was said on standard error", warnings_of).in_json_alone(),
       Field<Run>("light", "", "how photon paths ended", light_of).in_json_alone(),

@@ -15,6 +15,7 @@ struct ShownRun {
   std::optional<Whole> whole = {};               ///< predicted
   std::optional<Whole> whole_measured = {};      ///< of a command that does nothing else
   std::optional<model::SphereStops> stops = {};  ///< of a sphere cache, by the form of its technique
+  std::optional<SeenBetween> picture = {};
 };
 
 /// Measures the job, if it was not. Job and answer must stay.

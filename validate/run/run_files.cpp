@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
 #include "detp/sim/base/stopped.hpp"
@@ -13,7 +12,9 @@
 #include "detp/sim/files/result_file.hpp"
 #include "detp/sim/files/table_writer.hpp"
 #include "detp/sim/files/writing_check.hpp"
+#include "disc_mesh.hpp"
 #include "run.hpp"
+#include "run_picture.hpp"
 
 namespace detp::validate {
 namespace {
@@ -64,31 +65,6 @@ class DiscsInOrder {
   std::uint64_t given_ = 0;
   std::vector<sim::Disc> block_;
 };
-
-/// The triangles of the scene's mesh, with the numbers of the discs at their corners; none unless each corner has one. A vertex where edges are
-/// sharp has a disc for each of its normals: that whose normal is nearest to the triangle's.
-std::vector<std::array<std::uint32_t, 3>> triangles_of_discs(const Job& job) {
-  if (!job.scene || job.vertices.size() != job.discs.size()) return {};
-  const sim::Mesh& mesh = job.scene->mesh;
-  std::unordered_multimap<std::uint32_t, std::uint32_t> discs_at;
-  for (std::uint32_t disc = 0; disc < job.vertices.size(); ++disc) discs_at.emplace(job.vertices[disc], disc);
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) {
-    const auto& corners = mesh.triangles[triangle];
-    const glm::dvec3 normal = sim::area_vector(mesh, triangle);
-    std::array<std::uint32_t, 3>& own = triangles.emplace_back();
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const std::uint32_t vertex = mesh.file_vertices.empty() ? corners[i] : mesh.file_vertices[corners[i]];
-      const auto [first, last] = discs_at.equal_range(vertex);
-      if (first == last) return {};
-      own[i] = std::max_element(first, last, [&](const auto& one, const auto& other) {
-                 const auto nearness = [&](std::uint32_t disc) { return glm::dot(job.discs[disc].normal, normal); };
-                 return std::pair(nearness(one.second), other.second) < std::pair(nearness(other.second), one.second);
-               })->second;
-    }
-  }
-  return triangles;
-}
 
 /// The columns of what is found, in each band.
 void add_irradiance(const Job& job, bool errors, std::vector<sim::ResultColumn>& columns) {
@@ -191,13 +167,22 @@ WrittenRun write_files(const RunFiles& files, const Job& job, const RunAnswer& a
   if (outcome.stopped) {
     // By the photons so far, the irradiance is an estimate; sums over other rays would be too small.
     const bool is_estimate = answer.taken.has_value();
-    if ((files.per_disc && !is_estimate) || files.per_face || files.pairs)
+    if (((files.per_disc || files.picture) && !is_estimate) || files.per_face || files.pairs)
       written.notices.emplace_back(
-          "stopped before the end: --per-disc, --per-face and --pairs are not written, because they would be partial");
+          "stopped before the end: --per-disc, --per-face, --pairs and --picture are not written, because they would "
+          "be "
+          "partial");
+    const auto has_estimate = [&](const std::string& path) {
+      written.notices.push_back(
+          fmt::format("{} has the irradiance by the photons of the first {} rays", path, outcome.progress.done));
+    };
     if (is_estimate && files.per_disc) {
-      written.notices.push_back(fmt::format("{} has the irradiance by the photons of the first {} rays",
-                                            *files.per_disc, outcome.progress.done));
+      has_estimate(*files.per_disc);
       write_per_disc(*files.per_disc, answer.run, job, {});
+    }
+    if (is_estimate && files.picture) {
+      has_estimate(files.picture->path);
+      written.picture = write_picture(*files.picture, job, answer, {});
     }
     written.stopped = outcome.progress;
     return written;
@@ -207,6 +192,7 @@ WrittenRun write_files(const RunFiles& files, const Job& job, const RunAnswer& a
     if (files.per_face && !answer.faces) throw std::invalid_argument("a file of faces needs RunRequest::faces");
     if (files.per_face) write_per_face(*files.per_face, *answer.faces, job, stop);
     if (files.pairs) write_pairs(*files.pairs, answer.run, job.file_order, stop);
+    if (files.picture) written.picture = write_picture(*files.picture, job, answer, stop);
   } catch (const sim::Stopped& stopped) {
     written.notices.push_back(fmt::format("{}; the file is not kept", stopped.what()));
     written.stopped = stopped.progress();

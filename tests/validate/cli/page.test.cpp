@@ -68,22 +68,23 @@ TEST_SUITE("end to end") {
       CHECK(part["answer"]["schema"]["version"] == 1);
       CHECK(part["answer"]["stopped"] == false);
     }
-    CHECK(names == std::vector<std::string>{"scene", "choice", "accuracy", "map", "verdicts"});
+    CHECK(names == std::vector<std::string>{"scene", "choice", "picture", "accuracy", "map", "verdicts"});
     const std::string html = content_of(page);
     CHECK(html.size() < 900'000);
     CHECK(html.starts_with("<!doctype html>"));
     for (const char* part : {"<html lang=\"en\">", "Content-Security-Policy", "default-src 'none'", "<h1>", "<table>"})
       CHECK_MESSAGE(html.find(part) != std::string::npos, part);
-    for (const char* part : {"href=\"http", "src=", "@import", "url(", "\"nan", "\"inf"})
+    for (const char* part : {"href=\"http", "src=\"h", "@import", "url(", "\"nan", "\"inf"})
       CHECK_MESSAGE(html.find(part) == std::string::npos, part);
+    CHECK(html.find("src=\"data:image/png;base64,iVBOR") != std::string::npos);
     const std::string start = "id=\"answer\">";
     const std::size_t from = html.find(start) + start.size();
     const Json inside = Json::parse(html.substr(from, html.find("</script>", from) - from));
     CHECK(inside["parts"].size() == json["parts"].size());
     CHECK(inside["answer"] == json["answer"]);
     // A part's command gives the part's answer.
-    const std::string command = json["parts"][4]["command"];
-    CHECK(result_of(command.substr(5))["claims"].size() == json["parts"][4]["answer"]["claims"].size());
+    const std::string command = json["parts"][5]["command"];
+    CHECK(result_of(command.substr(5))["claims"].size() == json["parts"][5]["answer"]["claims"].size());
   }
 
   TEST_CASE("a report that is stopped has what was known, and says so; a scene without light has no accuracy" *

@@ -31,14 +31,14 @@ TEST_SUITE("report") {
     request.disc_radius = "4%";
     request.quick = true;
     const Json report = answer(request, ask);
-    REQUIRE(asked.size() == 5);
+    REQUIRE(asked.size() == 6);
     CHECK(asked[0] == std::vector<std::string>{"scene", "my scene.obj", "--rays", "1000", "--disc-radius", "4%"});
-    CHECK(asked[3] == std::vector<std::string>{"choose", "my scene.obj", "--map", "--rays", "10,100,1000,3000",
+    CHECK(asked[4] == std::vector<std::string>{"choose", "my scene.obj", "--map", "--rays", "10,100,1000,3000",
                                                "--disc-radius", "0.125,0.25,0.5,1,2"});
     CHECK(report["parts"][0]["command"] == "detp scene 'my scene.obj' --rays 1000 --disc-radius 4%");
     CHECK(report["parts"][0]["forecast_seconds"].is_null());
-    CHECK(report["parts"][2]["not_made"] == "it has no lights");
-    CHECK_FALSE(report["parts"][2].contains("answer"));
+    CHECK(report["parts"][3]["not_made"] == "it has no lights");
+    CHECK_FALSE(report["parts"][3].contains("answer"));
     CHECK(report["warnings"].size() == 1);
     CHECK(report["inputs"]["target_noise"] == "5%");
     CHECK(report["stopped"] == false);

@@ -35,6 +35,7 @@ const std::vector<OutputOption>& output_options() {
   static const std::vector<OutputOption> all{{"--per-disc", {".csv", ".ply", ".vtp", ".npy"}},
                                              {"--per-face", {".csv", ".ply", ".vtp", ".npy"}},
                                              {"--pairs", {".csv"}},
+                                             {"--picture", {".png", ".svg"}},
                                              {"--write-mesh", {".ply"}},
                                              {"--write-discs", {".csv", ".ply", ".npy"}},
                                              {"--write-rays", {".csv", ".ply", ".npy"}},
@@ -47,7 +48,7 @@ const std::vector<OutputOption>& output_options() {
 constexpr auto input_options = {"SCENE", "--discs", "--ray-file", "--calibration"};
 
 /// Suffixes of formats that other files have.
-const Suffixes taken{".csv", ".ply", ".npy", ".vtp", ".obj", ".mtl", ".svg", ".html", ".htm"};
+const Suffixes taken{".csv", ".ply", ".npy", ".vtp", ".obj", ".mtl", ".svg", ".png", ".html", ".htm"};
 
 /// A file that the options name, and how.
 struct NamedFile {

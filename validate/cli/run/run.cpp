@@ -4,6 +4,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/table_writer.hpp"
@@ -37,6 +38,10 @@ struct RunOptions {
   int repeat = 0;
   bool standard_error = false;
   validate::RunFiles files;
+  std::optional<std::string> picture;
+  std::optional<std::string> view;
+  std::optional<std::string> picture_scale;
+  int picture_width = validate::Picture::usual_width;
   bool verbose = false;
   std::optional<std::string> target_noise;
   std::optional<std::string> target_error;
@@ -68,6 +73,34 @@ std::optional<validate::RunTarget> target_of(const RunOptions& options) {
   target.error.error = target.total ? parse_share("--target-error", *options.target_error)
                                     : parse_share("--target-noise", *options.target_noise);
   return target;
+}
+
+/// Nothing without a picture.
+std::optional<validate::Picture> picture_of(const RunOptions& options) {
+  if (!options.picture) {
+    if (options.view || options.picture_scale || options.picture_width != validate::Picture::usual_width)
+      throw std::invalid_argument(
+          "--view, --picture-scale and --picture-width belong to a picture: give --picture FILE");
+    return std::nullopt;
+  }
+  validate::Picture picture{*options.picture};
+  require_count("--picture-width", options.picture_width, 20, 8000);
+  picture.width = options.picture_width;
+  if (options.picture_scale)
+    picture.scaling =
+        std::ranges::find(validate::named_scalings, std::string_view(*options.picture_scale), [](const auto& one) {
+          return one.first;
+        })->second;
+  if (!options.view) return picture;
+  const std::vector<std::string> words = words_of(*options.view);
+  if (words.size() != 6)
+    throw std::invalid_argument(
+        fmt::format("--view takes six numbers, x,y,z of where to look from and of where to look to (got {})",
+                    detp::quoted(*options.view)));
+  std::array<double, 6> numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = parse_number("--view", words[i]);
+  picture.view.emplace(glm::dvec3{numbers[0], numbers[1], numbers[2]}, glm::dvec3{numbers[3], numbers[4], numbers[5]});
+  return picture;
 }
 
 /// The parameters that mean something to the row: all of a technique that is named; else those that may be chosen, or are the estimator's.
@@ -108,6 +141,7 @@ RunRequest request_of(const RunOptions& options, const CommonOptions& common) {
     const std::string suffix = sim::suffix_of(*options.files.per_disc);
     request.keep_scene = suffix == ".ply" || suffix == ".vtp";
   }
+  if (options.picture) request.keep_scene = true;
   request.faces = options.files.per_face.has_value();
   request.target = target_of(options);
   if (options.share)
@@ -119,12 +153,13 @@ RunRequest request_of(const RunOptions& options, const CommonOptions& common) {
 /// Throws std::invalid_argument for options that exclude each other, and for those that no row uses.
 void check_options(const RunOptions& options, const std::vector<RunRequest>& candidates, std::size_t rows,
                    bool in_memory) {
-  if (rows > 1 && (options.files.per_disc || options.files.per_face || options.files.pairs))
+  if (rows > 1 && (options.files.per_disc || options.files.per_face || options.files.pairs || options.picture))
     throw std::invalid_argument(
-        "--per-disc, --per-face and --pairs write the hits of one run; give one value for each option");
+        "--per-disc, --per-face, --pairs and --picture are of one run; give one value for each option");
   if (rows > 1 && in_memory) throw std::invalid_argument("one run is kept in memory; give one value for each option");
-  if (options.standard_error && !options.files.per_disc && !options.files.per_face && !in_memory)
-    throw std::invalid_argument("--standard-error is a column of --per-disc FILE or --per-face FILE; give one too");
+  if (options.standard_error && !options.files.per_disc && !options.files.per_face && !options.picture && !in_memory)
+    throw std::invalid_argument(
+        "--standard-error is for files of results: give --per-disc FILE, --per-face FILE or --picture FILE too");
   if (options.target.checkpoint && rows > 1)
     throw std::invalid_argument("--checkpoint keeps one run with --target-noise or --target-error");
   std::set<std::string_view> used;
@@ -194,6 +229,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   ValueLists& candidates = options.candidate.lists;
   const std::size_t expected = rows_in(problems, candidates);
   problems.choose_row(0);
+  options.files.picture = picture_of(options);
   check_options(options, candidates_of(options, common), expected, common.in_memory);
   const CostsInUse costs = options.costs.costs(common);
   const ProgressLine progress(common.quiet);
@@ -231,10 +267,11 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     not_reached = found.until && found.until->result.reason != validate::StopReason::target;
     const validate::Whole measured = measured_whole(job, found, since_start.seconds());
     if (expected == 1) text = to_text(job, found, measured, common.screen(), options.verbose);
+    if (written.picture) text += picture_text(*options.files.picture, *written.picture, common.screen());
     if (is_short) return AnswerRow{Json::object(), {{"stopped", found.run.outcome.stopped}}, {Json::object()}};
     add_inputs(inputs, request);
-    const validate::ShownRun shown =
-        validate::shown_run(job, found, expected == 1 ? std::optional(measured) : std::nullopt);
+    validate::ShownRun shown = validate::shown_run(job, found, expected == 1 ? std::optional(measured) : std::nullopt);
+    shown.picture = written.picture;
     AnswerRow row{inputs, json_of(validate::run_fields(), shown), {workload_cells(inputs)}};
     row.cells.front().update(cells_of(validate::run_fields(), shown, row.answer));
     predicted = predicted || row.answer.contains("predicted_seconds");
@@ -303,10 +340,23 @@ Command run_command(CLI::App& program) {
   app->add_option(
       "--per-face", options->files.per_face,
       "write area, material, group and the light that lands on each triangle of the scene, in the same formats");
-  app->add_flag("--standard-error", options->standard_error,
-                "add to --per-disc the standard error of each irradiance, for independent photons, and where a few "
-                "photons bring most of it, an upper bound (95 %) of the irradiance");
+  app->add_flag(
+      "--standard-error", options->standard_error,
+      "add to files and pictures the standard error of each irradiance, for independent photons, and where a few "
+      "photons bring most of it, an upper bound (95 %) of the irradiance");
   app->add_option("--pairs", options->files.pairs, "write the hits as CSV ray,disc");
+  app->add_option("--picture", options->picture,
+                  "draw the surface in the colours of its irradiance, as .png or .svg; with --standard-error also the "
+                  "relative standard error; default: no picture");
+  app->add_option(
+      "--view", options->view,
+      "of the picture: where to look from and to, as x,y,z,x,y,z; default: what shows the most light, a plan "
+      "of a flat scene");
+  app->add_option("--picture-scale", options->picture_scale,
+                  "of the picture's colours: linear, log or auto; default: auto, log if the light differs much")
+      ->check(CLI::IsMember({"auto", "linear", "log"}));
+  add_number(*app, "--picture-width", options->picture_width,
+             "of the picture without its bar, in pixels; default: 800");
   app->add_option("--target-noise", options->target_noise,
                   "run until the noise (root mean square over the discs by area, relative to the root mean square "
                   "irradiance) is smaller, as 5%; --rays is then the limit (1e9); default: not");

@@ -202,6 +202,13 @@ std::string counts_table(const validate::Job& job, const RunAnswer& answer, cons
 
 }  // namespace
 
+std::string picture_text(const validate::Picture& picture, const validate::SeenBetween& seen, const Screen& screen) {
+  const auto& [from, to] = seen;
+  return wrapped(fmt::format("picture   {}: --view {:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", shown_path(picture.path),
+                             from.x, from.y, from.z, to.x, to.y, to.z),
+                 screen.text_width(), 10);
+}
+
 std::string to_text(const validate::Job& job, const RunAnswer& answer, const Whole& measured, const Screen& screen,
                     bool verbose) {
   const validate::Timing& timing = answer.timing;
