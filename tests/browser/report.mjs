@@ -74,12 +74,13 @@ async function look(browser, path, scheme, width) {
       levels: [...document.querySelectorAll("h1,h2,h3,h4")].map((one) => Number(one.tagName[1])),
       schema: JSON.parse(document.getElementById("answer").textContent).schema.name,
       badPictures: [...document.querySelectorAll("svg")].filter((one) =>
-        new DOMParser().parseFromString(one.outerHTML, "image/svg+xml").querySelector("parsererror")).length,
+        new DOMParser().parseFromString(one.outerHTML, "image/svg+xml").querySelector("parsererror")).length
+        + [...document.images].filter((one) => one.naturalWidth < 100).length,
     }));
     check(facts.lang === "en", `${name}: no language`);
     check(facts.levels[0] === 1 && facts.levels.every((one, i) => i === 0 || (one > 1 && one <= facts.levels[i - 1] + 1)), `${name}: headings ${facts.levels}`);
     check(facts.schema === "detp.report", `${name}: the answer's schema is ${facts.schema}`);
-    check(facts.badPictures === 0, `${name}: ${facts.badPictures} pictures are not XML`);
+    check(facts.badPictures === 0, `${name}: ${facts.badPictures} pictures are not XML, or not shown`);
     // On paper (A4 without margins of 12 mm), nothing may be cut off.
     await page.emulateMedia({ media: "print" });
     await page.setViewportSize({ width: 703, height: 1000 });

@@ -74,12 +74,12 @@ std::string accuracy_card(const Json& answer) {
 }
 
 /// The scene in the colours of its irradiance.
-std::string picture_figure(const Json& report, std::string_view png) {
+std::string picture_html(const Json& report, std::string_view png) {
   if (png.empty()) return {};
   const Json& run = answer_of(report, "picture");
   return fmt::format(
-      "<figure><img alt=\"{} in the colours of its irradiance, and of its relative standard error\" "
-      "src=\"data:image/png;base64,{}\"><figcaption>Light on the surface, by {} {}.</figcaption></figure>\n",
+      "<p><img alt=\"{} in the colours of its irradiance, and of its relative standard error\" "
+      "src=\"data:image/png;base64,{}\"><br>Light on the surface, by {} {}.</p>\n",
       xml_text(words(list(report, "inputs"), "scene")), base64(png), shown(list(run, "inputs"), "rays", count_words),
       words(list(run, "inputs"), "field") == "photons" ? "pieces of photon paths" : "rays");
 }
@@ -99,7 +99,7 @@ std::string answer_section(const Json& report, std::string_view picture) {
     if (warning.is_string())
       html += fmt::format("<p class=\"warning\" role=\"note\"><strong>Warning:</strong> {}</p>\n",
                           xml_text(warning.get<std::string>()));
-  return html + picture_figure(report, picture) + "</header>\n";
+  return html + picture_html(report, picture) + "</header>\n";
 }
 
 /// Machine, version, seed; each part's command and seconds.
