@@ -75,7 +75,7 @@ Outcome sums_of_parts(const PathRays& rays, const Mesh& mesh, const SurfaceParts
                       const RunOptions& options) {
   if (rays.triangles.size() != rays.rays.size())
     throw std::invalid_argument(
-        "light on faces needs photons that land on a scene's triangles: photon paths that were traced in the scene");
+        "light on faces needs photons that land on a scene's triangles: photon paths, or a ray file with its scene");
   const DefaultFloatingPoint mode;
   // Discs of the parts' areas; a part without area gets no light.
   std::vector<Disc> discs;

@@ -124,15 +124,21 @@ class CsvReader {
     separator_ = separator_in(lines_.line());
     std::vector<std::string_view> fields = fields_of(lines_.line());
     const bool is_row = are_numbers(fields);
+    std::vector<std::string> numbers;
     if (is_row) {
       const std::size_t count = fields.size();
       separator_ = separator_in(comment_);
       fields = fields_of(comment_);
-      if (fields.size() != count || are_numbers(fields))
-        lines_.fail("the first line has numbers, and no heading is before it; expected a header " + known_names());
+      if (fields.size() != count || are_numbers(fields)) {
+        numbers = choice_.numbered(count);
+        if (numbers.empty())
+          lines_.fail("the first line has numbers, and no heading is before it; expected a header " + known_names() +
+                      ", or --columns with numbers, as ox=1");
+      }
       separator_ = separator_in(lines_.line());
     }
-    const std::vector<std::string> headings(fields.begin(), fields.end());
+    if (numbers.empty()) numbers.assign(fields.begin(), fields.end());
+    const std::vector<std::string> headings = choice_.known(file_.path(), std::move(numbers));
     row_ = TableRow(file_.path(), choice_(file_.path(), headings));
     const std::vector<TableColumn>& columns = row_.columns();
     for (const std::string& heading : headings) {

@@ -16,10 +16,10 @@
 namespace detp::sim {
 
 std::vector<Disc> read_discs(const std::string& path, std::optional<double> default_radius, std::stop_token stop,
-                             std::vector<std::string>* unused) {
+                             std::vector<std::string>* unused, const std::vector<ColumnName>& names) {
   std::vector<Disc> discs;
   KeptMemory memory(path);
-  const ColumnChoice columns(disc_columns(default_radius));
+  const ColumnChoice columns = ColumnChoice(disc_columns(default_radius)).named(names);
   read_table(
       path, columns, [&](const TableRow& row) { memory.push(discs, disc_in(row)); }, std::move(stop));
   if (discs.empty()) throw FileError(path, "has no disc; at least one is needed");
@@ -66,8 +66,9 @@ Disc disc_in(const TableRow& row) {
 }
 
 std::unique_ptr<const StoredDiscs> StoredDiscs::open(const std::string& path, std::optional<double> default_radius,
-                                                     std::vector<std::string>* unused) {
-  const ColumnChoice columns(disc_columns(default_radius));
+                                                     std::vector<std::string>* unused,
+                                                     const std::vector<ColumnName>& names) {
+  const ColumnChoice columns = ColumnChoice(disc_columns(default_radius)).named(names);
   auto file = TableFile::open(path, columns);
   if (!file) return nullptr;
   if (unused != nullptr) *unused = columns.unused();

@@ -24,7 +24,8 @@ namespace detp::sim {
 /// finite, a zero normal, a radius <= 0, or a missing radius without a default. Checks a row before it reads the next
 /// row. `unused`, unless it is null, gets the columns that are none of a disc's. Throws std::length_error if the discs would not fit in memory, and Stopped within 0.1 s of a stop request.
 [[nodiscard]] std::vector<Disc> read_discs(const std::string& path, std::optional<double> default_radius,
-                                           std::stop_token stop = {}, std::vector<std::string>* unused = nullptr);
+                                           std::stop_token stop = {}, std::vector<std::string>* unused = nullptr,
+                                           const std::vector<ColumnName>& names = {});
 
 /// Writes discs with the columns x,y,z,nx,ny,nz,radius, and vertex if there are vertices (-1: none), as CSV or PLY: table_writer.hpp. The same doubles are read back. Throws
 /// FileError if the file cannot be written, and Stopped.
@@ -46,7 +47,8 @@ class StoredDiscs final : public DiscSource {
   /// for a header.
   [[nodiscard]] static std::unique_ptr<const StoredDiscs> open(const std::string& path,
                                                                std::optional<double> default_radius,
-                                                               std::vector<std::string>* unused = nullptr);
+                                                               std::vector<std::string>* unused = nullptr,
+                                                               const std::vector<ColumnName>& names = {});
 
   [[nodiscard]] std::uint64_t size() const override { return file_.rows(); }
   /// Uses oneTBB's threads.

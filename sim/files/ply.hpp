@@ -34,6 +34,8 @@ class PlyFile {
   /// The element of that name; null if the file has none.
   [[nodiscard]] const PlyElement* element(std::string_view name) const;
 
+  [[nodiscard]] const std::vector<PlyElement>& elements() const { return header_.elements; }
+
   /// Reads the body in the file's order, and skips elements that were not requested. Can be called once.
   ///
   /// Throws FileError if the file is unreadable, malformed or truncated, or is an ascii file with more numbers than its

@@ -137,6 +137,25 @@ std::optional<std::size_t> PlyElement::property(std::string_view wanted, bool li
   return std::nullopt;
 }
 
+std::vector<std::string> PlyElement::names() const {
+  std::vector<std::string> all;
+  for (const PlyProperty& property : properties) all.push_back(property.name);
+  return all;
+}
+
+std::optional<std::size_t> PlyElement::number(std::string_view wanted, const std::vector<std::string>& names) const {
+  for (std::size_t i = 0; i < properties.size(); ++i)
+    if (names[i] == wanted && !properties[i].count_type) return i;
+  return std::nullopt;
+}
+
+const PlyElement& element_of_rows(const std::string& path, const std::vector<PlyElement>& elements) {
+  for (const char* name : {"vertex", "photon"})
+    if (const auto found = std::ranges::find(elements, name, &PlyElement::name); found != elements.end()) return *found;
+  if (elements.size() == 1) return elements.front();
+  throw FileError(path, "has no element vertex or photon");
+}
+
 PlyHeader read_ply_header(InputFile& file) { return HeaderReader(file).read(); }
 
 }  // namespace detp::sim

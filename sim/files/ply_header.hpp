@@ -29,7 +29,13 @@ struct PlyElement {
 
   /// The place of the list (`list` true) or single number of that name. Nullopt if the element has no such property.
   [[nodiscard]] std::optional<std::size_t> property(std::string_view wanted, bool list) const;
+  [[nodiscard]] std::vector<std::string> names() const;
+  /// The place of the single number that one of the properties' names, as they may have been changed, is.
+  [[nodiscard]] std::optional<std::size_t> number(std::string_view wanted, const std::vector<std::string>& names) const;
 };
+
+/// The one whose rows are those of a table: vertex, else photon, else the only one. Throws FileError if there is none.
+[[nodiscard]] const PlyElement& element_of_rows(const std::string& path, const std::vector<PlyElement>& elements);
 
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;

@@ -95,9 +95,9 @@ void read_rows(const TableFile& table, Paths& paths, const std::stop_token& stop
 
 }  // namespace
 
-RayFile read_rays(const std::string& path, std::stop_token stop, const std::vector<BandColumn>& bands) {
+RayFile read_rays(const std::string& path, std::stop_token stop, const RayColumns& asked) {
   RayFile file;
-  const ColumnChoice columns = ray_columns(bands, file.bands);
+  const ColumnChoice columns = ray_columns(asked, file.bands);
   const auto further_bands = [&] { return file.bands.empty() ? 0 : file.bands.size() - 1; };
   if (const auto table = TableFile::open(path, columns)) {
     file.paths.further_bands = further_bands();
@@ -153,6 +153,19 @@ namespace {
 
 constexpr double at_end = std::numeric_limits<double>::lowest();  ///< landing at the ray's end
 
+std::vector<TableColumn> own_columns() {
+  return {{"ox", {}, {}},
+          {"oy", {}, {}},
+          {"oz", {}, {}},
+          {"dx", {}, {}},
+          {"dy", {}, {}},
+          {"dz", {}, {}},
+          {"length", unbounded, unbounded},
+          {"power", 1.0, {}},
+          {"photon", 0.0, {}},
+          {"landing", at_end, at_end}};
+}
+
 std::vector<BandColumn> bands_in(const std::vector<std::string>& headings) {
   std::vector<BandColumn> bands;
   for (const std::string& heading : headings)
@@ -185,38 +198,27 @@ void check(const std::vector<BandColumn>& bands) {
 
 }  // namespace
 
-ColumnChoice ray_columns(const std::vector<BandColumn>& asked, std::vector<BandColumn>& found) {
-  return std::function([asked, &found](const std::vector<std::string>& headings) {
-    found = asked.empty() ? bands_in(headings) : asked;
-    check(found);
-    std::vector<TableColumn> columns{{"ox", {}, {}},
-                                     {"oy", {}, {}},
-                                     {"oz", {}, {}},
-                                     {"dx", {}, {}},
-                                     {"dy", {}, {}},
-                                     {"dz", {}, {}},
-                                     {"length", unbounded, unbounded},
-                                     {"power", 1.0, {}},
-                                     {"photon", 0.0, {}},
-                                     {"landing", at_end, at_end}};
-    if (!found.empty()) columns[ray_column::power] = {found.front().column, {}, {}};
-    for (std::size_t band = 1; band < found.size(); ++band) columns.push_back({found[band].column, {}, {}});
-    return columns;
-  });
+ColumnChoice ray_columns(const RayColumns& asked, std::vector<BandColumn>& found) {
+  return ColumnChoice(std::function([bands = asked.bands, &found](const std::vector<std::string>& headings) {
+           found = bands.empty() ? bands_in(headings) : bands;
+           check(found);
+           std::vector<TableColumn> columns = own_columns();
+           if (!found.empty()) columns[ray_column::power] = {found.front().column, {}, {}};
+           for (std::size_t band = 1; band < found.size(); ++band) columns.push_back({found[band].column, {}, {}});
+           return columns;
+         }))
+      .named(asked.names);
+}
+
+bool is_ray_column(std::string_view name) {
+  const std::vector<TableColumn> own = own_columns();
+  return name.starts_with(power_prefix) || std::ranges::find(own, name, &TableColumn::name) != own.end();
 }
 
 std::vector<BandColumn> parse_bands(std::string_view text) {
   std::vector<BandColumn> bands;
-  for (std::size_t end = 0; end != std::string_view::npos;
-       text.remove_prefix(end == std::string_view::npos ? 0 : end + 1)) {
-    end = text.find(',');
-    const std::string_view one = text.substr(0, end);
-    const std::size_t equals = one.find('=');
-    if (equals == std::string_view::npos || equals + 1 == one.size())
-      throw std::invalid_argument(
-          fmt::format("bands must be NAME=COLUMN, as in r=red,g=green (got {})", detp::quoted(one)));
-    bands.push_back({std::string(one.substr(0, equals)), std::string(one.substr(equals + 1))});
-  }
+  for (auto& [name, column] : parse_pairs(text, "bands must be NAME=COLUMN, as in r=red,g=green"))
+    bands.push_back({std::move(name), std::move(column)});
   check(bands);
   return bands;
 }

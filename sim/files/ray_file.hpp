@@ -18,13 +18,22 @@ struct BandColumn {
   bool operator==(const BandColumn&) const = default;
 };
 
+/// Which columns of a file of rays are what.
+struct RayColumns {
+  std::vector<BandColumn> bands = {};  ///< none: power, or power_NAME
+  std::vector<ColumnName> names = {};
+};
+
 /// The columns of a file of rays, with those of bands: power, or power_NAME for each of some bands, or the columns that are asked for. A
 /// name has 1 to 64 letters, digits, dots, minuses and underscores. The choice throws FileError for a file with power and power_NAME, for names
 /// that appear twice, and for more than 64 bands. `found`, which must outlive the choice, gets the bands in the order of the file; none: power.
-[[nodiscard]] ColumnChoice ray_columns(const std::vector<BandColumn>& asked, std::vector<BandColumn>& found);
+[[nodiscard]] ColumnChoice ray_columns(const RayColumns& asked, std::vector<BandColumn>& found);
 
 /// Reads "r=red,g=green". Throws std::invalid_argument for anything else, and as ray_columns for the names.
 [[nodiscard]] std::vector<BandColumn> parse_bands(std::string_view text);
+
+/// Whether a file of rays can have a column of this name; else a file of discs may.
+[[nodiscard]] bool is_ray_column(std::string_view name);
 
 /// Rays as a file has them.
 struct RayFile {
@@ -45,8 +54,7 @@ struct RayFile {
 /// brought together, behind its first ray. landing: distance to the surface that the photon met, "inf" if it met none; absent
 /// or empty: the ray's end. Throws FileError as read_discs does, and for a zero direction, a photon that is no whole number
 /// from 0 to 2^53, and a landing < 0.
-[[nodiscard]] RayFile read_rays(const std::string& path, std::stop_token stop = {},
-                                const std::vector<BandColumn>& bands = {});
+[[nodiscard]] RayFile read_rays(const std::string& path, std::stop_token stop = {}, const RayColumns& asked = {});
 
 /// Writes rays with the columns ox,oy,oz,dx,dy,dz,length,power (of bands with names power_NAME), and photon and landing if the paths have them, as CSV or PLY:
 /// table_writer.hpp. The same doubles are read back. Throws FileError if the file cannot be written, and Stopped.

@@ -31,10 +31,9 @@ void require_no_stop(const std::stop_token& stop, const std::string& path) {
 }  // namespace
 
 std::unique_ptr<const StoredRays> StoredRays::open(const std::string& path, const std::stop_token& stop, Ranks* ranks,
-                                                   const std::vector<BandColumn>& bands,
-                                                   std::vector<std::string>* unused) {
+                                                   const RayColumns& asked, std::vector<std::string>* unused) {
   std::vector<BandColumn> found;
-  const ColumnChoice columns = ray_columns(bands, found);
+  const ColumnChoice columns = ray_columns(asked, found);
   auto file = TableFile::open(path, columns);
   if (!file) return nullptr;
   if (unused != nullptr) *unused = columns.unused();

@@ -19,8 +19,7 @@ class StoredRays final : public RaySource {
   /// Null if the rows of the file cannot be read in any order (TableFile::open), or if photons' numbers fall. Reads the whole file once; ranks, if
   /// given, share that. Throws FileError as read_rays does, and Stopped on a stop request.
   [[nodiscard]] static std::unique_ptr<const StoredRays> open(const std::string& path, const std::stop_token& stop = {},
-                                                              Ranks* ranks = nullptr,
-                                                              const std::vector<BandColumn>& bands = {},
+                                                              Ranks* ranks = nullptr, const RayColumns& asked = {},
                                                               std::vector<std::string>* unused = nullptr);
   [[nodiscard]] const std::vector<BandColumn>& band_columns() const { return bands_; }
 

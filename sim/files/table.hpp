@@ -19,7 +19,24 @@ struct TableColumn {
   std::optional<double> absent;  ///< value if the file has no such column; none: the column is required
   std::optional<double> empty;   ///< value of an empty field in a CSV file; none: no field may be empty
   std::string_view remedy = {};  ///< ends the message about a missing column, such as ", and none is given"
+  bool opposite = false;         ///< the file has it with the other sign
 };
+
+/// Another name that a file has for a column.
+struct ColumnName {
+  std::string name;       ///< of the column
+  std::string heading;    ///< in the file; of a file without headings the column's number, from 1
+  bool opposite = false;  ///< and the other sign
+
+  bool operator==(const ColumnName&) const = default;
+};
+
+/// Reads "a=b,c=d". Throws std::invalid_argument for anything else, with the rule.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> parse_pairs(std::string_view text,
+                                                                           std::string_view rule);
+
+/// Reads "ox=px,oy=py,dx=-wx". Throws std::invalid_argument for anything else, and for a name or a heading that appears twice.
+[[nodiscard]] std::vector<ColumnName> parse_column_names(std::string_view text);
 
 /// The columns to read from a file: always the same, or those that a function chooses when it knows the file's headings (none: columns
 /// have no names). The function may throw std::invalid_argument, whose text becomes that of a FileError.
@@ -30,6 +47,18 @@ class ColumnChoice {
   ColumnChoice(std::function<std::vector<TableColumn>(const std::vector<std::string>& headings)> choose)
       : choose_(std::move(choose)) {}
 
+  /// The same with other names in the file.
+  [[nodiscard]] ColumnChoice named(std::vector<ColumnName> names) && {
+    names_ = std::move(names);
+    return std::move(*this);
+  }
+  /// The file's headings by the names of the columns that they are. A heading that is another column's name then is none. Throws FileError if the file lacks one of the
+  /// headings that are named.
+  [[nodiscard]] std::vector<std::string> known(const std::string& path, std::vector<std::string> headings) const;
+  /// "1", "2", … of so many columns without headings if columns are named so; else none.
+  [[nodiscard]] std::vector<std::string> numbered(std::size_t columns) const;
+
+  /// Of known headings.
   [[nodiscard]] std::vector<TableColumn> operator()(const std::string& path,
                                                     const std::vector<std::string>& headings) const;
 
@@ -44,6 +73,7 @@ class ColumnChoice {
 
  private:
   std::function<std::vector<TableColumn>(const std::vector<std::string>&)> choose_;
+  std::vector<ColumnName> names_ = {};
   mutable std::vector<std::string> unused_;
 };
 
@@ -62,7 +92,7 @@ class TableRow {
   [[nodiscard]] const std::vector<TableColumn>& columns() const { return columns_; }
   [[nodiscard]] double operator[](std::size_t column) const { return values_[column]; }
 
-  void set(std::size_t column, double value) { values_[column] = value; }
+  void set(std::size_t column, double value) { values_[column] = columns_[column].opposite ? -value : value; }
 
   /// The file has no such column: every row has its `absent` value.
   void set_absent(std::size_t column) {

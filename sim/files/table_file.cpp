@@ -62,28 +62,27 @@ bool TableFile::take_ply(InputFile& file, const ColumnChoice& choice) {
   if (header.format == PlyFormat::ascii || !file.rest()) return false;
   const bool swapped = (header.format == PlyFormat::little_endian) != (std::endian::native == std::endian::little);
   std::uint64_t before = 0;  // bytes of the elements before the vertices
-  const auto vertex = std::ranges::find(header.elements, "vertex", &PlyElement::name);
-  if (vertex == header.elements.end()) throw FileError(path_, "has no element vertex");
-  for (auto element = header.elements.begin(); element <= vertex; ++element) {
+  const PlyElement& rows = element_of_rows(path_, header.elements);
+  for (const PlyElement* element = header.elements.data(); element <= &rows; ++element) {
     if (has_list(*element)) return false;
-    if (element != vertex) before += element->rows * size_of_row(*element);
+    if (element != &rows) before += element->rows * size_of_row(*element);
   }
-  rows_ = vertex->rows;
-  row_size_ = size_of_row(*vertex);
-  std::vector<std::string> names;
-  for (const PlyProperty& property : vertex->properties) names.push_back(property.name);
+  rows_ = rows.rows;
+  row_size_ = size_of_row(rows);
+  row_name_ = rows.name;
+  const std::vector<std::string> names = choice.known(path_, rows.names());
   columns_ = choice(path_, names);
   choice.sort_out(path_, names, columns_);
   for (const TableColumn& column : columns_) {
     auto& place = places_.emplace_back();
-    if (const auto property = vertex->property(column.name, false)) {
-      place.emplace(Place{0, vertex->properties[*property].type, swapped});
-      for (std::size_t i = 0; i < *property; ++i) place->offset += size_of(vertex->properties[i].type);
+    if (const auto property = rows.number(column.name, names)) {
+      place.emplace(Place{0, rows.properties[*property].type, swapped});
+      for (std::size_t i = 0; i < *property; ++i) place->offset += size_of(rows.properties[i].type);
     } else if (!column.absent) {
-      throw FileError(path_, fmt::format("its element vertex has no property {}{}", column.name, column.remedy));
+      throw FileError(path_, fmt::format("its element {} has no property {}{}", rows.name, column.name, column.remedy));
     }
   }
-  open_rows(*file.rest(), before, "rows of element vertex");
+  open_rows(*file.rest(), before, "rows of element " + rows.name);
   return true;
 }
 
@@ -92,18 +91,20 @@ void TableFile::take_npy(InputFile& file, const ColumnChoice& choice) {
   rows_ = header.rows;
   row_size_ = header.row_size;
   row_name_ = "row";
-  const bool plain = std::ranges::all_of(header.fields, [](const NpyField& one) { return one.name.empty(); });
-  std::vector<std::string> names;
+  bool plain = std::ranges::all_of(header.fields, [](const NpyField& one) { return one.name.empty(); });
+  std::vector<std::string> names = plain ? choice.numbered(header.fields.size()) : std::vector<std::string>{};
   if (!plain)
     for (const NpyField& field : header.fields) names.push_back(field.name);
+  names = choice.known(path_, std::move(names));
+  plain = names.empty();
   columns_ = choice(path_, names);
   choice.sort_out(path_, names, columns_);
   if (plain && header.fields.size() > columns_.size())
     throw FileError(path_, fmt::format("has {} columns; known are {}", header.fields.size(), names_of(columns_)));
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const TableColumn& column = columns_[i];
-    const auto found = plain ? header.fields.begin() + static_cast<std::ptrdiff_t>(std::min(i, header.fields.size()))
-                             : std::ranges::find(header.fields, column.name, &NpyField::name);
+    const auto place_of = static_cast<std::size_t>(plain ? i : std::ranges::find(names, column.name) - names.begin());
+    const auto found = header.fields.begin() + static_cast<std::ptrdiff_t>(std::min(place_of, header.fields.size()));
     auto& place = places_.emplace_back();
     if (found != header.fields.end())
       place.emplace(Place{found->offset, found->type, found->swapped});

@@ -52,7 +52,7 @@ class TableFile {
   std::uint64_t rows_ = 0;
   std::uint64_t begin_ = 0;  ///< of the first row, bytes
   std::size_t row_size_ = 0;
-  std::string_view row_name_ = "vertex";
+  std::string row_name_ = "vertex";
   int descriptor_ = -1;
 };
 

@@ -59,6 +59,9 @@ Json origin_json(const JobRequest& request, const std::string& scene, sim::Field
     json["field"] = name(field);
   if (request.rgb) json["bands"] = "rgb";
   for (const sim::BandColumn& band : request.bands) json["bands"][band.name] = band.column;
+  for (const sim::ColumnName& one : request.columns)
+    json["columns"][one.name] = (one.opposite ? "-" : "") + one.heading;
+  if (request.landed) json["landed"] = true;
   if (request.crease) json["crease"] = *request.crease;
   json["front_facing"] = request.front_facing;
   if (request.second_intersection) json["second_intersection"] = true;

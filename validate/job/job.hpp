@@ -50,7 +50,11 @@ struct JobRequest {
   std::optional<std::string> disc_file;  ///< instead of a scene's samples
   std::optional<std::string> ray_file;   ///< instead of photon paths or isotropic lines
   std::vector<sim::BandColumn>
-      bands;         ///< of powers, and their columns in the ray file; default: power_NAME, if there are such columns
+      bands;  ///< of powers, and their columns in the ray file; default: power_NAME, if there are such columns
+  std::vector<sim::ColumnName> columns;  ///< other names in the ray file and the disc file
+  bool landed = false;                   ///< the ray file has where photons landed in the scene (sim::make_pieces)
+  /// rays of a file get the triangles of the scene on which their photons landed (sim::land)
+  bool landings = false;
   bool rgb = false;  ///< photon paths carry red, green and blue, by the colours of materials
   /// default 100 000; of photon paths at least so many, to the end of the last photon's path
   std::optional<double> rays;

@@ -17,6 +17,7 @@
 #include "detp/sim/files/stored_rays.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
+#include "detp/sim/photons/landings.hpp"
 #include "detp/sim/photons/light_ledger.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/photon_walk.hpp"
@@ -78,6 +79,7 @@ class JobMaker {
   Job make() {
     sim::Stopwatch watch;
     if (request_.without_rays) refuse_rays();
+    check_columns();
     progress_.read(request_);
     sim::in_memory("reading the scene", [&] { request_.numbers_alone() ? from_numbers() : from_scene_and_files(); });
     job_.front_facing = request_.front_facing;
@@ -139,10 +141,12 @@ class JobMaker {
   /// Leaves discs in their file where they do not fit.
   void read_discs(const std::string& file, std::optional<double> radius) {
     std::vector<std::string> unused;
-    auto stored = request_.store_discs && request_.stream ? sim::StoredDiscs::open(file, radius, &unused) : nullptr;
+    auto stored = request_.store_discs && request_.stream
+                      ? sim::StoredDiscs::open(file, radius, &unused, names_in(Names::discs))
+                      : nullptr;
     if (stored && request_.ray_file && !ray_table(*request_.ray_file)) stored.reset();
     if (!stored || !are_large(stored->size())) {
-      job_.discs = sim::read_discs(file, radius, stop_, &unused);
+      job_.discs = sim::read_discs(file, radius, stop_, &unused, names_in(Names::discs));
       note_unused(file, unused);
       return;
     }
@@ -154,6 +158,29 @@ class JobMaker {
         "the {} discs do not fit in memory: they are read part by part, and their workload is measured on {} of them",
         stored->size(), job_.discs.size()));
     job_.stored_discs = std::move(stored);
+  }
+
+  enum class Names { rays, discs };
+  [[nodiscard]] std::vector<sim::ColumnName> names_in(Names of) const {
+    std::vector<sim::ColumnName> names = request_.columns;
+    std::erase_if(names, [&](const auto& one) { return sim::is_ray_column(one.name) != (of == Names::rays); });
+    return names;
+  }
+  [[nodiscard]] sim::RayColumns ray_columns() const { return {request_.bands, names_in(Names::rays)}; }
+
+  void check_columns() const {
+    const std::vector<sim::TableColumn> of_discs = sim::disc_columns(1);
+    for (const sim::ColumnName& one : request_.columns) {
+      const bool of_rays = sim::is_ray_column(one.name);
+      if (!of_rays && std::ranges::find(of_discs, one.name, &sim::TableColumn::name) == of_discs.end())
+        throw std::invalid_argument(
+            fmt::format("--columns: {} is no column of rays or discs: those are ox, oy, oz, dx, dy, dz, length, power, "
+                        "power_NAME, photon, landing; x, y, z, nx, ny, nz, radius, vertex",
+                        detp::quoted(one.name)));
+      if (!(of_rays ? request_.ray_file : request_.disc_file))
+        throw std::invalid_argument(fmt::format("--columns names {}, a column of {}, and there is none", one.name,
+                                                of_rays ? "--ray-file" : "--discs"));
+    }
   }
 
   void note_unused(const std::string& file, const std::vector<std::string>& unused) {
@@ -218,8 +245,10 @@ class JobMaker {
         throw std::invalid_argument("the number of rays is for fields of rays; a ray file is taken whole");
       job_.field = sim::Field::photons;
       std::vector<std::string> unused;
-      if (job_.stored_discs || (request_.stream && is_large(*request_.ray_file)))
-        if (auto stored = sim::StoredRays::open(*request_.ray_file, stop_, request_.ranks, request_.bands, &unused)) {
+      if (request_.landed && (!scene_ || scene_->mesh.triangles.empty()))
+        throw std::invalid_argument("--landed finds the pieces of photons' paths in a scene: name one with triangles");
+      if (!request_.landed && (job_.stored_discs || (request_.stream && is_large(*request_.ray_file))))
+        if (auto stored = sim::StoredRays::open(*request_.ray_file, stop_, request_.ranks, ray_columns(), &unused)) {
           note_unused(*request_.ray_file, unused);
           name_bands(stored->band_columns());
           job_.stream = std::move(stored);
@@ -230,13 +259,15 @@ class JobMaker {
             fmt::format("{} and its rays do not fit in memory; rays are read part by part only if their photons' "
                         "numbers do not fall",
                         *request_.disc_file));
-      sim::RayFile file = sim::read_rays(*request_.ray_file, stop_, request_.bands);
+      sim::RayFile file = sim::read_rays(*request_.ray_file, stop_, ray_columns());
       name_bands(file.bands);
       note_unused(*request_.ray_file, file.unused);
+      find_landings(*request_.ray_file, file.paths);
       keep(std::move(file.paths));
       job_.file_order = std::move(file.order);
       return;
     }
+    if (request_.landed) throw std::invalid_argument("--landed is for photons of a --ray-file");
     if (!request_.bands.empty()) throw std::invalid_argument("--bands names columns of --ray-file, and there is none");
     const bool are_photons =
         request_.field.value_or(scene_ ? scene_->field : sim::Field::isotropic) == sim::Field::photons;
@@ -270,9 +301,24 @@ class JobMaker {
     keep(std::move(traced));
   }
 
+  /// In a scene, of the rays of a file.
+  void find_landings(const std::string& file, sim::Paths& paths) {
+    if (!request_.landed && !(request_.landings && scene_ && !scene_->mesh.triangles.empty())) return;
+    sim::LandingCounts counts;
+    if (request_.landed) {
+      const double overshoot = scene_for_photons().overshoot;
+      counts = sim::make_pieces(paths, *caster_, scene_->box, overshoot, request_.threads, stop_);
+    } else {
+      caster_ = std::make_shared<sim::RayCaster>(scene_->mesh, scene_->box, stop_);
+      counts = sim::land(paths, !paths.landings.empty(), *caster_, scene_->box, request_.threads, stop_);
+    }
+    if (const std::string notice = sim::landing_notice(counts); !notice.empty())
+      job_.notices.push_back(fmt::format("{}: {}", shown_path(file), notice));
+  }
+
   [[nodiscard]] std::optional<sim::TableFile> ray_table(const std::string& path) const {
     std::vector<sim::BandColumn> found;
-    return sim::TableFile::open(path, sim::ray_columns(request_.bands, found));
+    return sim::TableFile::open(path, sim::ray_columns(ray_columns(), found));
   }
 
   /// Its rays are to stay in the file: ranks share them, or they are more than a block and take more than half of the memory.

@@ -224,6 +224,7 @@ JobRequest job_request(std::span<const RunRequest> requests) {
                      return !one.keep_scene && !one.faces && !sim::record_of(one.estimator).needs_mesh() &&
                             !sim::record_of(one.estimator).needs_scene;
                    });
+  job.landings = !all([](const RunRequest& one) { return one.searches() && !one.faces; });
   job.without_rays = all([](const RunRequest& one) { return one.gathers(); });
   job.in_batches = until;
   return job;

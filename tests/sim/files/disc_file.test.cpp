@@ -255,10 +255,10 @@ TEST_SUITE("photons in files") {
     }
     const std::string mixed = folder.file(
         "m.csv", "photon,ox,oy,oz,g,dx,dy,dz,r\n1,0,0,0,20,0,0,1,2\n0,0,0,0,10,0,0,1,1\n1,0,0,0,40,0,0,1,4\n");
-    const RayFile chosen = read_rays(mixed, {}, parse_bands("red=r,green=g"));
+    const RayFile chosen = read_rays(mixed, {}, {parse_bands("red=r,green=g")});
     CHECK(chosen.paths.rays[0].power == 2);
     CHECK(chosen.paths.further == std::vector<double>{20, 40, 10});  // the photon's rays are together
-    const RayFile turned = read_rays(mixed, {}, parse_bands("green=g,red=r"));
+    const RayFile turned = read_rays(mixed, {}, {parse_bands("green=g,red=r")});
     CHECK(turned.paths.rays[1].power == 40);
     CHECK(turned.paths.further == std::vector<double>{2, 4, 1});
   }
@@ -284,7 +284,7 @@ TEST_SUITE("photons in files") {
     const ScratchFolder folder;
     const std::string file = folder.file("r.csv", place + "red\n0,0,0,0,0,1,2\n");
     CHECK(support::file_error_of([&] {
-            (void)read_rays(file, {}, parse_bands("g=green"));
+            (void)read_rays(file, {}, {parse_bands("g=green")});
           }).find("the header has no column green") != std::string::npos);
     for (const char* wrong : {"", "r", "r=", "=red", "r=red,", "r=red,r=green", "r=red,g=red", "r d=red"})
       CHECK_THROWS_AS((void)parse_bands(wrong), std::invalid_argument);

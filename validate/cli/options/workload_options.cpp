@@ -72,6 +72,15 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
                      "discs from a CSV, PLY or NPY file; default: one at each of the scene's samples");
   command.add_option("--ray-file", request_.ray_file,
                      "rays from a CSV, PLY or NPY file; default: made, as --field says");
+  command.add_flag("--landed", request_.landed,
+                   "the ray file is a photon map: origins are where photons landed in the scene, directions those of "
+                   "their flight; the pieces of their paths are found");
+  lists.add(
+      command, "--columns", Values::one, words,
+      [this](const std::string& text) { request_.columns = sim::parse_column_names(text); },
+      "what the ray file and the disc file call their columns, as ox=px,oy=py,oz=pz,dx=-wx (a minus turns the sign), "
+      "or "
+      "the columns' numbers in files without headings, as ox=1; default: by the names that follow");
   lists.add(
       command, "--bands", Values::one, words,
       [this](const std::string& text) {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "detp/model/optimum/best_ratio.hpp"
+#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/ranked/ranked.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
 #include "detp/validate/cli/report/prediction_report.hpp"

@@ -464,12 +464,49 @@ TEST_SUITE("end to end") {
     CHECK(detp("run @cornell --rays 20000 --per-face " + file).out.find("faces     light on white") !=
           std::string::npos);
     const std::string rays = folder.file("r.csv", "ox,oy,oz,dx,dy,dz\n0,0,0,0,0,1\n");
-    check_refused(
-        {{"run @cornell --estimator gather --per-face " + file, "gather has none"},
-         {"run @cornell --field isotropic --per-face " + file, "photons that land on a scene's triangles"},
-         {"run @cornell --ray-file " + rays + " --per-face " + file, "photons that land on a scene's triangles"},
-         {"run @uniform --samples 10 --rays 10 --per-face " + file, "needs a mesh"},
-         {"run @cornell --target-noise 5% --per-face " + file, "a run until an error does not"}});
+    check_refused({{"run @cornell --estimator gather --per-face " + file, "gather has none"},
+                   {"run @cornell --field isotropic --per-face " + file, "photons that land on a scene's triangles"},
+                   {"run @uniform --samples 10 --rays 10 --per-face " + file, "needs a mesh"},
+                   {"run @cornell --target-noise 5% --per-face " + file, "a run until an error does not"}});
+  }
+
+  TEST_CASE("photons of a file land in its scene as those that were traced there; a photon map gives the same light") {
+    const support::ScratchFolder folder;
+    const std::string rays = folder.path("rays.csv");
+    REQUIRE(detp("scene @cornell --rays 5000 --write-rays " + rays).code == 0);
+    const auto written = [&](const std::string& scene, const std::string& name) {
+      const auto found = detp(scene + " --estimator triangle-hits --standard-error --per-disc " + folder.path(name) +
+                              " --per-face " + folder.path("f" + name));
+      REQUIRE_MESSAGE(found.code == 0, found.err);
+      return content_of(folder.path(name)) + content_of(folder.path("f" + name));
+    };
+    CHECK(written("run @cornell --rays 5000", "traced.csv") == written("run @cornell --ray-file " + rays, "read.csv"));
+    std::string map = "px,py,pz,wx,wy,wz,flux\n";
+    double flux = 0;
+    for (const CsvRow& row : csv_rows(content_of(rays))) {
+      if (row.at("landing") == "inf") continue;
+      const double at = number(row, "landing");
+      const auto place = [&](const char* origin, const char* direction) {
+        return number(row, origin) + at * number(row, direction);
+      };
+      map +=
+          fmt::format("{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{}\n", place("ox", "dx"), place("oy", "dy"),
+                      place("oz", "dz"), -number(row, "dx"), -number(row, "dy"), -number(row, "dz"), row.at("power"));
+      flux += number(row, "power");
+    }
+    const std::string photons = folder.file("map.csv", map);
+    const std::string names = " --landed --columns ox=px,oy=py,oz=pz,dx=-wx,dy=-wy,dz=-wz,power=flux";
+    const Json json = result_of("run @cornell --ray-file " + photons + names + " --per-face " + folder.path("m.csv"));
+    double light = 0;
+    for (const Json& material : json["faces"]["materials"]) light += material["light"].get<double>();
+    CHECK(light == doctest::Approx(flux).epsilon(1e-9));
+    CHECK(json["inputs"]["landed"] == true);
+    CHECK(json["inputs"]["columns"]["dx"] == "-wx");
+    check_refused({{"run @cornell --landed", "--landed is for photons of a --ray-file"},
+                   {"run @uniform --samples 10 --ray-file " + photons + names, "name one with triangles"},
+                   {"run @cornell --ray-file " + rays + " --landed", "leave out length"},
+                   {"run @cornell --columns ox=px", "and there is none"},
+                   {"run @cornell --ray-file " + photons + " --columns o=px", "is no column of rays or discs"}});
   }
 
   TEST_CASE("photons in colours: ledgers, and a run until the error of a band") {
