@@ -9,11 +9,13 @@
 
 #include "detp/sim/base/kept_memory.hpp"
 #include "file_error.hpp"
+#include "gltf_file.hpp"
 #include "input_file.hpp"
 #include "obj_file.hpp"
 #include "output_file.hpp"
 #include "ply.hpp"
 #include "polygon.hpp"
+#include "stl_file.hpp"
 #include "writing_check.hpp"
 
 namespace detp::sim {
@@ -171,12 +173,20 @@ Mesh read_ply_mesh(const std::string& path, Notices&, std::stop_token stop) {
   return mesh;
 }
 
+Mesh read_gltf_mesh(const std::string& path, Notices& notices, std::stop_token stop) {
+  Mesh mesh = read_gltf(path, notices, std::move(stop));
+  reset_normals(mesh);
+  return mesh;
+}
+
 /// What a name's ending says about the file. A new format is a line here, and a file with what reads it.
 struct MeshFormat {
   std::string_view suffix;
   Mesh (*read)(const std::string& path, Notices& notices, std::stop_token stop);
 };
-constexpr std::array formats{MeshFormat{".obj", read_obj}, MeshFormat{".ply", read_ply_mesh}};
+constexpr std::array formats{MeshFormat{".obj", read_obj}, MeshFormat{".ply", read_ply_mesh},
+                             MeshFormat{".stl", read_stl}, MeshFormat{".gltf", read_gltf_mesh},
+                             MeshFormat{".glb", read_gltf_mesh}};
 
 }  // namespace
 
@@ -185,6 +195,12 @@ std::string mesh_suffixes() {
   for (const MeshFormat& one : formats)
     all += fmt::format("{}{}", all.empty() ? "" : &one == &formats.back() ? " or " : ", ", one.suffix);
   return all;
+}
+
+std::vector<std::string> files_of_mesh(const std::string& path, std::stop_token stop) {
+  if (has_ending(without_gz(path), ".obj")) return material_files(path, std::move(stop));
+  if (has_ending(path, ".gltf")) return gltf_buffers(path, std::move(stop));
+  return {};
 }
 
 Mesh read_mesh(const std::string& path, Notices& notices, std::stop_token stop) {

@@ -2,6 +2,7 @@
 
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "detp/sim/scene/mesh.hpp"
 
@@ -9,6 +10,9 @@ namespace detp::sim {
 
 /// The endings of the names of mesh files, as in ".obj or .ply".
 [[nodiscard]] std::string mesh_suffixes();
+
+/// Paths of the other files that a mesh file names, as materials and buffers; there may be no file there. Throws FileError.
+[[nodiscard]] std::vector<std::string> files_of_mesh(const std::string& path, std::stop_token stop = {});
 
 /// Reads a triangle mesh. The ending of the file's name, in upper or lower case, decides the format.
 ///

@@ -47,8 +47,9 @@ struct Reader {
   void (*read)(const std::string&);
 };
 
-constexpr Reader readers[] = {{".obj", read_as_mesh},  {".ply", read_as_mesh}, {".csv", read_as_discs},
-                              {".ply", read_as_discs}, {".csv", read_as_rays}, {".ply", read_as_rays}};
+constexpr Reader readers[] = {{".obj", read_as_mesh},  {".ply", read_as_mesh},  {".csv", read_as_discs},
+                              {".ply", read_as_discs}, {".csv", read_as_rays},  {".ply", read_as_rays},
+                              {".stl", read_as_mesh},  {".gltf", read_as_mesh}, {".glb", read_as_mesh}};
 
 }  // namespace
 

@@ -59,7 +59,7 @@ bool format_works() {
   std::ofstream("toy.corners") << "0 0 0 1 0 0 0 1 0";
   sim::Notices notices;
   return sim::read_mesh("toy.corners", notices).triangles.size() == 1 &&
-         sim::mesh_suffixes() == ".obj, .ply or .corners";
+         sim::mesh_suffixes() == ".obj, .ply, .stl, .gltf, .glb or .corners";
 }
 
 /// Returns 0 if all that was added works.

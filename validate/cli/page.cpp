@@ -114,7 +114,7 @@ Command report_command(CLI::App& program) {
       "Example: detp report @tree -o report.html\nExample: detp report scene.obj -o report.html --target-error 5% "
       "--quick");
   const auto options = std::make_shared<validate::ReportRequest>();
-  app->add_option("SCENE", options->scene, "a mesh (.obj, .ply) or a built-in scene")->required();
+  app->add_option("SCENE", options->scene, "a mesh or a built-in scene")->required();
   add_count(*app, "--rays", options->rays, "how many rays, as 100k; default: 100k");
   app->add_option(
       "--disc-radius", options->disc_radius,

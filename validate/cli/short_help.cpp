@@ -8,7 +8,7 @@ std::string_view short_help(std::string_view command) {
 Usage: detp choose [SCENE] [options]
 
 What is searched
-  SCENE              a mesh (.obj, .ply), or built in: @tree, @room:7 ...
+  SCENE              a mesh file, or built in: @tree, @room:7 ...
   --rays N           how many rays, as 100k; default: 100k
   --disc-radius D    a length, or a share of the scene, as 1%
   --discs FILE, --ray-file FILE
@@ -35,7 +35,7 @@ Fields of the answer: detp choose --help fields
 Usage: detp run [SCENE] [options]
 
 What is searched
-  SCENE              a mesh (.obj, .ply), or built in: @tree, @room:7 ...
+  SCENE              a mesh file, or built in: @tree, @room:7 ...
   --rays N           how many rays, as 100k; default: 100k
   --disc-radius D    a length, or a share of the scene, as 1%
   --discs FILE, --ray-file FILE
@@ -75,7 +75,7 @@ The question, one of
   --target-error E   noise and bias together to reach
   --time-budget S    the most accurate answer in S seconds, tracing included
 For what
-  SCENE              a mesh (.obj, .ply), or built in: @cornell, @room:7 ...
+  SCENE              a mesh file, or built in: @cornell, @room:7 ...
   --disc-radius D    radii near this one, a length or a share, as 1%
   --discs FILE       the discs in question; default: at the scene's samples
   --material NAME    errors of the samples on these materials only
@@ -107,7 +107,7 @@ The workload, in numbers or from a scene
   --disc-radius D    a length, or a share of the scene, as 1%
   --scene-side S     side of the cube of samples; --sphere-radius R: of S0
   --dimension D      3: samples fill the cube; 2: they lie on its faces
-  SCENE              a mesh (.obj, .ply), or built in: @tree, @cornell ...
+  SCENE              a mesh file, or built in: @tree, @cornell ...
 The technique
   --technique NAME   default: sphere-cache
   --ratio Q          ratio of the radii of nested spheres, also a range
@@ -156,7 +156,7 @@ Fields of the answer: detp validate --help fields
 Usage: detp scene [SCENE] [options]
 
 What
-  SCENE              a mesh (.obj, .ply), or built in: @uniform, @tree,
+  SCENE              a mesh file, or built in: @uniform, @tree,
                      @tree-coarse, @courtyard, @cornell, @caustic, @interior,
                      @furnace, @sunlit; families with a seed: @room:7, @plant:7,
                      @machine:7, @terrain:7, @shells:7, @details:7
@@ -217,7 +217,7 @@ Fields of the answer: detp calibrate --help fields
     return R"(One page that answers, then shows: choice, accuracy, verdicts
 Usage: detp report SCENE -o FILE.html [options]
 
-  SCENE              a mesh (.obj, .ply), or built in: @tree, @cornell ...
+  SCENE              a mesh file, or built in: @tree, @cornell ...
   -o FILE.html       the page
   --rays N           how many rays, as 100k; default: 100k
   --disc-radius D    a length, or a share of the scene, as 1%

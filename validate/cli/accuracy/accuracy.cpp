@@ -201,7 +201,7 @@ Command accuracy_command(CLI::App& program) {
       program.add_subcommand("accuracy", "What accuracy costs in time: rays, setting and estimator for an error");
   app->footer("Example: detp accuracy @cornell --target-noise 5%\nExample: detp accuracy @cornell --time-budget 2");
   const auto options = std::make_shared<AccuracyOptions>();
-  app->add_option("SCENE", options->request.scene.name, "a mesh (.obj, .ply) or a built-in scene with lights")
+  app->add_option("SCENE", options->request.scene.name, "a mesh or a built-in scene with lights")
       ->required();
   app->add_option("--target-noise", options->noise,
                   "noise to reach, as 5% or 0.05; the setting is the largest whose bias is below; default: 5%");

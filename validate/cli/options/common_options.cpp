@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/sim/files/obj_file.hpp"
+#include "detp/sim/files/mesh_file.hpp"
 #include "detp/sim/files/output_place.hpp"
 #include "detp/sim/files/table_writer.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
@@ -48,7 +48,8 @@ const std::vector<OutputOption>& output_options() {
 constexpr auto input_options = {"SCENE", "--discs", "--ray-file", "--calibration"};
 
 /// Suffixes of formats that other files have.
-const Suffixes taken{".csv", ".ply", ".npy", ".vtp", ".obj", ".mtl", ".svg", ".png", ".html", ".htm"};
+const Suffixes taken{".csv", ".ply",  ".npy", ".npz", ".vtp", ".obj",  ".mtl",
+                     ".stl", ".gltf", ".glb", ".svg", ".png", ".html", ".htm"};
 
 /// A file that the options name, and how.
 struct NamedFile {
@@ -132,10 +133,9 @@ void require_apart(const std::vector<NamedFile>& outputs, const std::vector<Name
     throw std::invalid_argument("only one input can be standard input (-)");
   const bool some_exist = std::ranges::any_of(outputs, is_file, &NamedFile::path);
   for (const NamedFile& input : inputs)
-    if (some_exist && input.option == "SCENE" && sim::suffix_of(input.path) == ".obj" && is_file(input.path))
-      for (const std::string& materials : sim::material_files(input.path, stop))
-        for (const NamedFile& output : outputs)
-          require_apart(output, materials, "the materials of " + shown_path(input.path));
+    if (some_exist && input.option == "SCENE" && is_file(input.path))
+      for (const std::string& part : sim::files_of_mesh(input.path, stop))
+        for (const NamedFile& output : outputs) require_apart(output, part, "a part of " + shown_path(input.path));
 }
 
 void require_apart(const std::vector<NamedFile>& outputs) {

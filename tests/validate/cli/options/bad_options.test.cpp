@@ -31,7 +31,7 @@ TEST_SUITE("bad input") {
         {{uniform + "--frob 3", "--frob"},
          {uniform + "--technique quadtree", "brute-force, sphere-cache"},
          {"run @moon", "@uniform, @tree, @tree-coarse, @courtyard, @cornell, @caustic, @interior"},
-         {"scene moon", "must end in .obj or .ply"},
+         {"scene moon", "must end in .obj, .ply, .stl, .gltf or .glb"},
          {"run @uniform @tree", "@tree"},
          {model_numbers + "--format xml", "text,json,csv"},
          {model_numbers + "--form wrong", "published,corrected"},
