@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <span>
 #include <system_error>
@@ -24,6 +25,7 @@ class CsvReader {
       : file_(path, std::move(stop)), lines_(file_), choice_(choice), row_(path, choice(path, {})) {}
 
   std::size_t read(const TableSink& sink) {
+    refuse_other_formats();
     if (!next_line()) throw FileError(file_.path(), "is empty; expected a header " + known_names());
     const bool is_row = read_header();
     for (std::size_t i = 0; i < row_.columns().size(); ++i)
@@ -47,6 +49,38 @@ class CsvReader {
   static constexpr std::size_t unused = SIZE_MAX;  ///< a column of the file that is none of the known
   static constexpr std::size_t rows_of_estimate = 64;
   static constexpr std::size_t lines_apart = 256;  ///< where some are not plain numbers
+
+  /// Files that some programs write for tables, by how they begin.
+  void refuse_other_formats() {
+    struct Format {
+      std::string_view begin;
+      const char* name;
+    };
+    using namespace std::string_view_literals;
+    constexpr std::array formats{Format{"\x89HDF\r\n"sv, "HDF5"},
+                                 Format{"PAR1"sv, "Parquet"},
+                                 Format{"ARROW1"sv, "Arrow"},
+                                 Format{"PK\x03\x04"sv, "a ZIP archive, as .xlsx is (an .npz must end so)"},
+                                 Format{"\xD0\xCF\x11\xE0"sv, "a workbook of Excel"},
+                                 Format{"MATLAB 5.0"sv, "a file of MATLAB"},
+                                 Format{"CDF\x01"sv, "NetCDF"},
+                                 Format{"SQLite format 3"sv, "a database of SQLite"},
+                                 Format{"MCPL00"sv, "MCPL, whose name must end in .mcpl"},
+                                 Format{"\x93NUMPY"sv, "an array of NumPy, whose name must end in .npy"},
+                                 Format{"# vtk DataFile"sv, "a legacy file of VTK"},
+                                 Format{"<?xml"sv, "XML"},
+                                 Format{"<VTKFile"sv, "a file of VTK"},
+                                 Format{"{"sv, "JSON"}};
+    constexpr std::size_t longest = 16;
+    static_cast<void>(file_.fetch(longest));
+    for (const Format& one : formats)
+      if (file_.buffered().starts_with(one.begin))
+        throw FileError(file_.path(), fmt::format("is {}; CSV, PLY, NPY, NPZ and MCPL are read", one.name));
+    constexpr std::string_view ply = "ply";
+    const std::string_view front = file_.buffered();
+    if (front.starts_with(ply) && front.size() > ply.size() && (front[3] == '\n' || front[3] == '\r'))
+      throw FileError(file_.path(), "is PLY, whose name must end in .ply");
+  }
 
   /// By the bytes of the first rows.
   void expect_rows(std::uint64_t begin) {

@@ -21,7 +21,8 @@ constexpr std::size_t alignment = 64;  ///< of the first row in the file
 /// Reads the literal of a Python dictionary that describes the array.
 class Description {
  public:
-  Description(std::string_view text, const std::string& path) : text_(text), path_(path) {}
+  Description(std::string_view text, const std::string& path, bool vectors)
+      : text_(text), path_(path), vectors_(vectors) {}
 
   NpyHeader read() {
     expect('{');
@@ -157,6 +158,7 @@ class Description {
   NpyHeader header() {
     if (fields_.empty()) fail("names no type of numbers");
     if (!shape_) fail("has no shape");
+    if (vectors_ && !structured_ && shape_->size() == 1) shape_->push_back(1);
     if (shape_->size() != (structured_ ? 1U : 2U))
       fail(structured_
                ? fmt::format("has a structured array of {} dimensions; one is needed", shape_->size())
@@ -176,6 +178,7 @@ class Description {
 
   std::string_view text_;
   const std::string& path_;
+  bool vectors_;  ///< an array of one dimension is a column
   std::vector<NpyField> fields_;
   std::size_t row_size_ = 0;
   bool structured_ = false;
@@ -185,21 +188,43 @@ class Description {
 
 }  // namespace
 
-NpyHeader read_npy_header(InputFile& file) {
+namespace {
+
+/// The size of the header from the front of a file; 0 if that is too short to say. Throws FileError if there is none.
+std::size_t header_size(std::string_view front, const std::string& path) {
   constexpr std::size_t before_length = 8;
-  if (!file.fetch(before_length + 2) || !file.buffered().starts_with(magic))
-    throw FileError(file.path(), "is no NumPy file: it does not begin with \\x93NUMPY");
-  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(file.buffered()[at]); };
+  if (front.size() < before_length + 2 || !front.starts_with(magic))
+    throw FileError(path, "is no NumPy file: it does not begin with \\x93NUMPY");
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(front[at]); };
   const std::size_t of_length = byte(magic.size()) == 1 ? 2 : 4;
-  if (!file.fetch(before_length + of_length)) throw FileError(file.path(), "ends in its header");
+  if (front.size() < before_length + of_length) return 0;
   std::size_t length = 0;
   for (std::size_t i = of_length; i > 0; --i) length = 256 * length + byte(before_length + i - 1);
-  if (length > longest_header) throw FileError(file.path(), fmt::format("has a header of {} bytes", length));
-  file.skip(before_length + of_length);
-  if (!file.fetch(length)) throw FileError(file.path(), "ends in its header");
-  NpyHeader header = Description(file.buffered().substr(0, length), file.path()).read();
-  file.skip(length);
+  if (length > longest_header) throw FileError(path, fmt::format("has a header of {} bytes", length));
+  return before_length + of_length + length;
+}
+
+NpyHeader header_in(std::string_view bytes, const std::string& path, bool vectors) {
+  const std::size_t before = 8 + (static_cast<unsigned char>(bytes[magic.size()]) == 1 ? 2 : 4);
+  return Description(bytes.substr(before), path, vectors).read();
+}
+
+}  // namespace
+
+NpyHeader read_npy_header(InputFile& file) {
+  constexpr std::size_t longest_before = 12;
+  static_cast<void>(file.fetch(longest_before));
+  const std::size_t size = header_size(file.buffered(), file.path());
+  if (size == 0 || !file.fetch(size)) throw FileError(file.path(), "ends in its header");
+  NpyHeader header = header_in(file.buffered().substr(0, size), file.path(), false);
+  file.skip(size);
   return header;
+}
+
+NpyHeader npy_header_in(std::string_view bytes, const std::string& path, std::size_t& begin) {
+  begin = header_size(bytes, path);
+  if (begin == 0 || begin > bytes.size()) throw FileError(path, "ends in its header");
+  return header_in(bytes.substr(0, begin), path, true);
 }
 
 std::string npy_header(const std::vector<NpyColumn>& columns, std::uint64_t rows) {

@@ -28,6 +28,9 @@ struct NpyHeader {
 /// that are neither structured with one dimension nor plain with two, that are in Fortran order, or whose numbers are no integers or floats of 1 to 8 bytes.
 [[nodiscard]] NpyHeader read_npy_header(InputFile& file);
 
+/// The same of a whole file in memory; `begin` is where its rows begin. A plain array may have one dimension, that of a column.
+[[nodiscard]] NpyHeader npy_header_in(std::string_view bytes, const std::string& path, std::size_t& begin);
+
 struct NpyColumn {
   std::string_view name;
   std::string_view type = "<f8";

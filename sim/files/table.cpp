@@ -14,6 +14,8 @@
 #include "detp/model/vocabulary/quoted.hpp"
 #include "file_error.hpp"
 #include "input_file.hpp"
+#include "mcpl_file.hpp"
+#include "npz.hpp"
 #include "ply.hpp"
 #include "table_file.hpp"
 
@@ -179,6 +181,8 @@ std::size_t read_table(const std::string& path, const ColumnChoice& choice, cons
     table->read(0, table->rows(), sink, stop);
     return table->rows();
   }
+  if (has_ending(without_gz(path), ".mcpl")) return read_mcpl(path, choice, sink, std::move(stop));
+  if (has_ending(path, ".npz")) return read_npz(path, choice, sink, std::move(stop));
   if (has_ending(path, ".npy.gz")) throw FileError(path, "is compressed; .npy is read as it is: unpack it first");
   return has_ending(without_gz(path), ".ply") ? read_ply_table(path, choice, sink, std::move(stop))
                                               : read_csv(path, choice, sink, std::move(stop));

@@ -136,7 +136,7 @@ class TableRow {
 /// Receives each row as it is read; may throw.
 using TableSink = std::function<void(const TableRow&)>;
 
-/// Reads a table row by row, in bounded memory: PLY if the path ends in .ply, an array of NumPy if it ends in .npy (upper or lower case), else
+/// Reads a table row by row, in bounded memory: PLY if the path ends in .ply, an array of NumPy if it ends in .npy, several if in .npz, particles if in .mcpl (upper or lower case), else
 /// CSV. Returns the number of rows. Throws FileError with the line (CSV), the vertex (PLY) or the row if the file is unreadable or malformed,
 /// or a column is missing; see read_csv and PlyFile. Throws Stopped within 0.1 s of a stop request.
 std::size_t read_table(const std::string& path, const ColumnChoice& choice, const TableSink& sink,

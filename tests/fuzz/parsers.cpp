@@ -49,7 +49,8 @@ struct Reader {
 
 constexpr Reader readers[] = {{".obj", read_as_mesh},  {".ply", read_as_mesh},  {".csv", read_as_discs},
                               {".ply", read_as_discs}, {".csv", read_as_rays},  {".ply", read_as_rays},
-                              {".stl", read_as_mesh},  {".gltf", read_as_mesh}, {".glb", read_as_mesh}};
+                              {".stl", read_as_mesh},  {".gltf", read_as_mesh}, {".glb", read_as_mesh},
+                              {".npz", read_as_rays},  {".mcpl", read_as_rays}};
 
 }  // namespace
 

@@ -23,7 +23,7 @@ Output
   --format NAME      text, json or csv; -o FILE writes it to a file
   --time-limit S     stop after S seconds and show what there is
 
-Discs  x,y,z,nx,ny,nz and radius (or --disc-radius), as CSV, PLY or NPY.
+Discs  x,y,z,nx,ny,nz and radius (or --disc-radius), as CSV, PLY, NPY or NPZ.
 Rays   ox,oy,oz,dx,dy,dz and, if wanted, length, power, photon, landing.
 Example: detp choose @tree --rays 100000 --disc-radius 1% --analyze
 Example: detp choose @tree --map --disc-radius 1%,4%,16% -o map.svg
@@ -58,7 +58,7 @@ Output
   --verbose          also effects, and counts with their predictions
   --format NAME      text, json or csv; -o FILE writes it to a file
 
-Discs  x,y,z,nx,ny,nz and radius (or --disc-radius), as CSV, PLY or NPY.
+Discs  x,y,z,nx,ny,nz and radius (or --disc-radius), as CSV, PLY, NPY or NPZ.
 Rays   ox,oy,oz,dx,dy,dz and, if wanted, length, power, photon, landing.
 Units  irradiance: the rays' power over area. Ke: radiance of a face's front.
 Example: detp run @cornell --target-noise 5%

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -247,7 +248,7 @@ TEST_SUITE("bad input") {
       text.replace(at, from.size(), to);
       return file_error_of([&] { (void)mesh_in(folder.file("a.gltf", text)); });
     };
-    const std::array<std::array<const char*, 3>, 17> cases{{
+    const std::array<std::array<const char*, 3>, 16> cases{{
         {R"("version": "2.0")", R"("version": "1.0")", "version 2.x is read"},
         {R"({"asset")", R"(["asset")", "is no glTF"},
         {R"("mesh": 0)", R"("mesh": 1)", "meshes 1 is not there: there are 1"},
@@ -258,7 +259,6 @@ TEST_SUITE("bad input") {
         {R"("indices": 1)", R"("indices": 0)", "another type"},
         {R"("indices": 1)", R"("indices": 9)", "accessors 9 is not there"},
         {R"("byteLength": 48})", R"("byteLength": 47})", "ends beyond its bufferView"},
-        {R"("byteOffset": 60, "byteLength": 8)", R"("byteOffset": 60, "byteLength": 9)", ""},
         {R"("byteOffset": 48, "byteLength": 12)", R"("byteOffset": 60, "byteLength": 12)", "ends beyond its buffer"},
         {R"("byteLength": 68)", R"("byteLength": 69)", "buffer 0 has 68 bytes; 69 are needed"},
         {";base64,", ",", "not in base64"},
@@ -266,8 +266,10 @@ TEST_SUITE("bad input") {
         {R"("count": 6, "type": "SCALAR")", R"("count": 6, "type": "SCALAR", "sparse": {})", "sparse"},
         {R"("scenes")", R"("extensionsRequired": ["KHR_draco_mesh_compression"], "scenes")", "export it without"},
     }};
-    for (const auto& [from, to, named] : cases)
-      if (*named != '\0') CHECK_MESSAGE(refusal(from, to).find(named) != std::string::npos, refusal(from, to), named);
+    for (const auto& one : cases) {
+      const std::string message = refusal(one[0], one[1]);
+      CHECK_MESSAGE(message.find(one[2]) != std::string::npos, message, one[2]);
+    }
     CHECK(file_error_of([&] {
             (void)mesh_in(folder.file("a.gltf", square_gltf(R"({"mesh": 0})", R"("mode": 1)")));
           }).find("has no faces") != std::string::npos);

@@ -201,8 +201,7 @@ Command accuracy_command(CLI::App& program) {
       program.add_subcommand("accuracy", "What accuracy costs in time: rays, setting and estimator for an error");
   app->footer("Example: detp accuracy @cornell --target-noise 5%\nExample: detp accuracy @cornell --time-budget 2");
   const auto options = std::make_shared<AccuracyOptions>();
-  app->add_option("SCENE", options->request.scene.name, "a mesh or a built-in scene with lights")
-      ->required();
+  app->add_option("SCENE", options->request.scene.name, "a mesh or a built-in scene with lights")->required();
   app->add_option("--target-noise", options->noise,
                   "noise to reach, as 5% or 0.05; the setting is the largest whose bias is below; default: 5%");
   app->add_option("--target-error", options->error, "noise and bias together to reach, as 5% or 0.05");
@@ -213,8 +212,9 @@ Command accuracy_command(CLI::App& program) {
       ->delimiter(',');
   add_count(*app, "--rays", options->request.most_rays, "at most so many pieces of photon paths, as 10M; default: 1e9");
   add_count(*app, "--samples", options->samples, "how many samples; default: the scene's vertices");
-  app->add_option("--discs", options->request.discs,
-                  "the discs in question, from a CSV, PLY or NPY file; default: one at each of the scene's samples");
+  app->add_option(
+      "--discs", options->request.discs,
+      "the discs in question, from a CSV, PLY, NPY or NPZ file; default: one at each of the scene's samples");
   app->add_option(
       "--disc-radius", options->request.disc_radius,
       "radii from half to four times this one are tried (a length, or a percentage); default: from a quarter "

@@ -48,8 +48,8 @@ const std::vector<OutputOption>& output_options() {
 constexpr auto input_options = {"SCENE", "--discs", "--ray-file", "--calibration"};
 
 /// Suffixes of formats that other files have.
-const Suffixes taken{".csv", ".ply",  ".npy", ".npz", ".vtp", ".obj",  ".mtl",
-                     ".stl", ".gltf", ".glb", ".svg", ".png", ".html", ".htm"};
+const Suffixes taken{".csv", ".ply",  ".npy", ".npz", ".mcpl", ".vtp",  ".obj", ".mtl",
+                     ".stl", ".gltf", ".glb", ".svg", ".png",  ".html", ".htm"};
 
 /// A file that the options name, and how.
 struct NamedFile {

@@ -69,9 +69,9 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
                      fmt::format("a mesh ({}), or {} (one of many, SEED a whole number)", sim::mesh_suffixes(),
                                  sim::built_in_scenes()));
   command.add_option("--discs", request_.disc_file,
-                     "discs from a CSV, PLY or NPY file; default: one at each of the scene's samples");
+                     "discs from a CSV, PLY, NPY or NPZ file; default: one at each of the scene's samples");
   command.add_option("--ray-file", request_.ray_file,
-                     "rays from a CSV, PLY or NPY file; default: made, as --field says");
+                     "rays from a CSV, PLY, NPY, NPZ or MCPL file; default: made, as --field says");
   command.add_flag("--landed", request_.landed,
                    "the ray file is a photon map: origins are where photons landed in the scene, directions those of "
                    "their flight; the pieces of their paths are found");
