@@ -78,6 +78,26 @@ class ResultFiles(unittest.TestCase):
         self.assertEqual(len(faces), 9696)
         self.assertLess(faces["vertex_indices"].max(), len(table["disc"]))
 
+    def test_results_in_memory_are_the_same_mesh(self) -> None:
+        found = detp.run("@cornell", rays=20_000, seed=3, standard_error=True)
+        self.files("per_disc", [".ply"])
+        by_command = os.path.join(self.folder, "per_disc.ply")
+        path = os.path.join(self.folder, "memory.ply")
+        found.to_ply(path)
+        for element, names in (("vertex", ["x", "nz", "radius", "hits", "irradiance", "standard_error"]),
+                               ("face", ["vertex_indices"])):
+            for name in names:
+                np.testing.assert_array_equal(of_ply(path, element)[name], of_ply(by_command, element)[name])
+        assert found.faces is not None
+        np.testing.assert_array_equal(found.faces, of_ply(path, "face")["vertex_indices"])
+        np.testing.assert_array_equal(found.positions[:, 1], of_ply(path, "vertex")["y"])
+        found.to_vtk(os.path.join(self.folder, "memory.vtp"))
+        with self.assertRaises(ValueError):
+            found.to_vtk(path)
+        with self.assertRaises(OSError):
+            found.to_ply(os.path.join(self.folder, "no", "memory.ply"))
+        self.assertIsNone(detp.run("@cornell", rays=1000, samples=50).faces)
+
     def test_light_on_faces(self) -> None:
         table = self.check("per_face", "face")
         self.assertEqual(len(table["face"]), 9696)

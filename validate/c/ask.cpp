@@ -1,6 +1,10 @@
+#include <array>
 #include <cstring>
+#include <utility>
 
+#include "detp/sim/files/result_file.hpp"
 #include "detp/validate/cli/command_line.hpp"
+#include "detp/validate/run/disc_mesh.hpp"
 #include "detp/validate/run/run.hpp"
 #include "guard.hpp"
 
@@ -16,6 +20,7 @@ struct detp_run {
   std::vector<double> irradiance;
   std::vector<double> standard_error;
   std::vector<double> upper_bound;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
 namespace {
@@ -68,6 +73,7 @@ detp_status detp_run_create(const char* const* words, size_t count, detp_progres
     one->json = text_of(asked.json);
     add_discs(*one, asked.run->job);
     add_results(*one, asked.run->answer.run);
+    one->triangles = validate::triangles_of_discs(asked.run->job);
     made = one.release();
   });
 }
@@ -86,6 +92,8 @@ detp_status detp_run_look(const detp_run* run, detp_run_view* view, detp_error* 
     ours.standard_error = array(one.standard_error);
     ours.upper_bound = array(one.upper_bound);
     ours.json = one.json.c_str();
+    ours.triangles = one.triangles.size();
+    ours.corners = one.triangles.empty() ? nullptr : one.triangles.front().data();
     ours.bands = one.hits.empty() ? 1 : one.irradiance.size() / one.hits.size();
     c::write_back(view, ours);
   });
@@ -95,6 +103,32 @@ void detp_run_free(detp_run** run) {
   if (run == nullptr) return;
   delete *run;
   *run = nullptr;
+}
+
+detp_status detp_results_write(const char* path, const detp_column* columns, size_t count, size_t rows,
+                               const uint32_t* corners, size_t triangles, detp_error* error) {
+  return c::guarded(error, [&] {
+    if (count == 0) throw std::invalid_argument("a file of results needs a column");
+    std::vector<sim::ResultColumn> all;
+    for (std::size_t i = 0; i < count; ++i) {
+      const detp_column& one = (&c::given(columns, "columns"))[i];
+      if (one.kind < DETP_REAL || one.kind > DETP_INDEX) throw std::invalid_argument("a column has an unknown kind");
+      if (rows > 0) c::given(one.numbers, "the numbers of a column");
+      all.push_back({&c::given(one.name, "the name of a column"), static_cast<sim::ResultColumn::Kind>(one.kind)});
+    }
+    std::vector<std::array<std::uint32_t, 3>> all_triangles(corners == nullptr ? 0 : triangles);
+    for (std::size_t i = 0; i < 3 * all_triangles.size(); ++i) {
+      if (corners[i] >= rows) throw std::invalid_argument("a corner of a triangle is no row");
+      all_triangles[i / 3][i % 3] = corners[i];
+    }
+    sim::ResultFile file(&c::given(path, "path"), std::move(all), rows, {.triangles = all_triangles}, "rows", {});
+    std::vector<double> row(count);
+    for (std::size_t i = 0; i < rows; ++i) {
+      for (std::size_t column = 0; column < count; ++column) row[column] = columns[column].numbers[i];
+      file.write(row);
+    }
+    file.commit();
+  });
 }
 
 detp_status detp_ask(const char* const* words, size_t count, detp_progress progress, void* user, char** json,

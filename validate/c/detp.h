@@ -345,6 +345,8 @@ typedef struct detp_run_view {
   const double *upper_bound;    /* one-sided, 95 %; null likewise */
   const char *json;             /* what the command prints */
   size_t bands;                 /* the last three arrays have a row of so many numbers for each disc */
+  size_t triangles;             /* of the scene's mesh, if each of its vertices has a disc; else 0 */
+  const uint32_t *corners;      /* the discs at the corners of each triangle */
 } detp_run_view;
 
 /* Does what `detp run WORDS...` does: makes discs and rays of a scene or of files, chooses technique and parameters, searches, and
@@ -354,6 +356,23 @@ DETP_API detp_status detp_run_create(const char *const *words, size_t count, det
                                      detp_run **run, detp_error *error);
 DETP_API detp_status detp_run_look(const detp_run *run, detp_run_view *view, detp_error *error);
 DETP_API void detp_run_free(detp_run **run);
+
+typedef enum detp_column_kind {
+  DETP_REAL = 0, /* a double */
+  DETP_COUNT,    /* a whole number from 0 on */
+  DETP_INDEX     /* a whole number from -1 to 2^31 - 1 */
+} detp_column_kind;
+
+typedef struct detp_column {
+  const char *name;
+  const double *numbers; /* of each row */
+  detp_column_kind kind;
+} detp_column;
+
+/* Writes rows of results, as `detp run --per-disc` does: CSV, PLY, VTK PolyData or NPY, by the path's suffix. Columns x, y, z are places, nx, ny, nz
+ * normals. corners: rows at the corners of each triangle, in .ply and .vtp; null: points alone. */
+DETP_API detp_status detp_results_write(const char *path, const detp_column *columns, size_t count, size_t rows,
+                                        const uint32_t *corners, size_t triangles, detp_error *error);
 
 /* ---- every other question ---- */
 

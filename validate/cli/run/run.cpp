@@ -141,7 +141,7 @@ RunRequest request_of(const RunOptions& options, const CommonOptions& common) {
     const std::string suffix = sim::suffix_of(*options.files.per_disc);
     request.keep_scene = suffix == ".ply" || suffix == ".vtp";
   }
-  if (options.picture) request.keep_scene = true;
+  if (options.picture || common.in_memory) request.keep_scene = true;
   request.faces = options.files.per_face.has_value();
   request.target = target_of(options);
   if (options.share)

@@ -15,6 +15,8 @@ from ._declarations import ffi
 from ._library import LongCall, Progress, call, lib, make, owned
 from .found import Floats, _PerDisc, by_band
 
+PathLike = Union[str, "os.PathLike[str]"]
+
 
 @dataclass(frozen=True, repr=False)
 class Run(_PerDisc):
@@ -27,6 +29,7 @@ class Run(_PerDisc):
     irradiance: Floats  #: (n,)
     standard_error: Optional[Floats]  #: (n,) of the irradiance; infinite with fewer than two photons
     upper_bound: Optional[Floats]  #: (n,) one-sided, 95 %, of the irradiance
+    faces: Optional[npt.NDArray[np.uint32]]  #: (m, 3) the discs at the corners of the scene's triangles, if each vertex has one
     answer: Dict[str, Any]  #: what the command prints as JSON: technique, counts, seconds, predictions, errors
 
     def _columns(self) -> Dict[str, Any]:
@@ -34,6 +37,34 @@ class Run(_PerDisc):
         errors = {} if self.standard_error is None else {"standard_error": self.standard_error,
                                                          "upper_bound": self.upper_bound}
         return by_band({**places, "radius": self.radii, "hits": self.hits, "irradiance": self.irradiance, **errors})
+
+    @property
+    def positions(self) -> Floats:
+        """(n, 3) the centres; with `faces`, the vertices of the scene's mesh."""
+        return self.centres
+
+    def to_ply(self, path: PathLike) -> None:
+        """Writes the discs with what was found, as points or, with `faces`, as a mesh with properties of its vertices. Raises OSError."""
+        self._write(path, ".ply")
+
+    def to_vtk(self, path: PathLike) -> None:
+        """The same as VTK PolyData (.vtp), which ParaView opens. Raises OSError."""
+        self._write(path, ".vtp")
+
+    def _write(self, path: PathLike, suffix: str) -> None:
+        if not os.fspath(path).endswith(suffix):
+            raise ValueError(f"the file's name must end in {suffix} (got {os.fspath(path)})")
+        normals = {name: self.normals[:, axis] for axis, name in enumerate(("nx", "ny", "nz"))}
+        columns: Dict[str, Any] = {"disc": np.arange(len(self.hits)), **self._columns(), **normals}
+        kinds = {"disc": lib.DETP_INDEX, "hits": lib.DETP_COUNT}
+        kept = [np.ascontiguousarray(values, np.float64) for values in columns.values()]
+        names = [ffi.new("char[]", name.encode()) for name in columns]
+        all_columns = ffi.new("detp_column[]", [
+            {"name": text, "numbers": ffi.from_buffer("double[]", values), "kind": kinds.get(name, lib.DETP_REAL)}
+            for name, text, values in zip(columns, names, kept)])
+        corners = ffi.NULL if self.faces is None else ffi.from_buffer("uint32_t[]", np.ascontiguousarray(self.faces))
+        call(lib.detp_results_write, os.fsencode(path), all_columns, len(columns), len(self.hits), corners,
+             0 if self.faces is None else len(self.faces))
 
     def _rows(self) -> List[Tuple[str, object]]:
         return [("technique", self.answer["technique"] or self.answer["estimator"]), ("discs", len(self.hits)),
@@ -48,7 +79,7 @@ class Run(_PerDisc):
         return _show.table("Run", self._rows())
 
 
-def run(scene: Optional[Union[str, os.PathLike[str]]] = None, *, progress: Optional[Progress] = None,
+def run(scene: Optional[PathLike] = None, *, progress: Optional[Progress] = None,
         **options: object) -> Run:
     """What the command `detp run` does, with the result in arrays: `run("@cornell", rays=1e5, technique="grid")`.
 
@@ -83,4 +114,7 @@ def run(scene: Optional[Union[str, os.PathLike[str]]] = None, *, progress: Optio
     return Run(centres=array(view.centres, 3, np.float64).reshape(count, 3),
                normals=array(view.normals, 3, np.float64).reshape(count, 3), radii=array(view.radii, 1, np.float64),
                hits=array(view.hits, 1, np.uint64), irradiance=rows(view.irradiance),
-               standard_error=rows(view.standard_error), upper_bound=rows(view.upper_bound), answer=json.loads(ffi.string(view.json).decode()))
+               standard_error=rows(view.standard_error), upper_bound=rows(view.upper_bound),
+               faces=None if view.triangles == 0 else np.frombuffer(
+                   ffi.buffer(view.corners, 12 * view.triangles), np.uint32).copy().reshape(-1, 3),
+               answer=json.loads(ffi.string(view.json).decode()))
