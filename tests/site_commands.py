@@ -2,11 +2,13 @@
 """Runs the commands of the site's own pages: site_commands.py FOLDER-OF-DETP PAGE…
 
 A command must succeed, and each line of output that the page quotes must begin with the first word of a line that it prints. (Times differ from
-machine to machine.) The commands of a page run one after another in one folder, so that files of one are there for the next.
+machine to machine.) The commands of a page run one after another in one folder, so that files of one are there for the next. Beside a page may
+be its programs, which are there, too, and pictures, which the commands must make again to the byte.
 """
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -40,7 +42,15 @@ def main() -> int:
 
     def complaints_of(page: Path) -> "list[str]":
         with tempfile.TemporaryDirectory() as place:
-            return [complaint(environment, place, page.name, *one) for one in commands(page.resolve())]
+            for suffix in ("*.py", "*.pov"):
+                for program in page.parent.glob(suffix):
+                    shutil.copy(program, place)
+            found = [complaint(environment, place, page.name, *one) for one in commands(page.resolve())]
+            for name in re.findall(r"!\[[^]]*\]\((\w+\.png)\)", page.read_text(encoding="utf-8")):
+                made = Path(place, name)
+                same = made.exists() and made.read_bytes() == Path(page.parent, name).read_bytes()
+                found.append("" if same else f"{page.name}: {name} is another picture")
+            return found
 
     with ThreadPoolExecutor(2) as workers:
         answers = [text for all_of_page in workers.map(complaints_of, pages) for text in all_of_page]

@@ -37,13 +37,23 @@ SurfaceParts parts_by_triangle(const Mesh& mesh) {
 
 SurfaceParts parts_by_material(const Mesh& mesh) {
   const std::vector<Material>& all = mesh.materials.all;
-  SurfaceParts parts{.areas = std::vector<double>(std::max<std::size_t>(1, all.size()))};
-  for (std::uint32_t part = 0; part < parts.areas.size(); ++part) {
-    parts.names.push_back(all.empty() || all[part].name.empty() ? fmt::format("material {}", part) : all[part].name);
-    parts.sets.push_back({part});
+  constexpr std::uint32_t unused = UINT32_MAX;
+  std::vector<std::uint32_t> part_of(std::max<std::size_t>(1, all.size()), unused);
+  const auto material_of = [&](std::uint32_t triangle) {
+    return all.empty() ? std::size_t{0} : mesh.materials.number_of(triangle);
+  };
+  for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle) part_of[material_of(triangle)] = 0;
+  SurfaceParts parts;
+  for (std::size_t material = 0; material < part_of.size(); ++material) {
+    if (part_of[material] == unused) continue;
+    part_of[material] = static_cast<std::uint32_t>(parts.names.size());
+    parts.sets.push_back({part_of[material]});
+    parts.names.push_back(all.empty() || all[material].name.empty() ? fmt::format("material {}", material)
+                                                                    : all[material].name);
   }
   for (std::uint32_t triangle = 0; triangle < mesh.triangles.size(); ++triangle)
-    parts.set_of_triangle.push_back(all.empty() ? 0 : mesh.materials.number_of(triangle));
+    parts.set_of_triangle.push_back(part_of[material_of(triangle)]);
+  parts.areas.resize(parts.names.size());
   add_areas(mesh, parts);
   return parts;
 }
