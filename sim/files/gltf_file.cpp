@@ -398,9 +398,12 @@ class GltfReader {
         shapes.find(accessor->value("type", Json()).is_string() ? (*accessor)["type"].get<std::string>() : "");
     if (type == types.end() || shape == shapes.end() || shape->second != components)
       fail(fmt::format("the accessor of {} has another type than {} numbers", key, components));
-    if (components == 1 && type->second.first == NumberType::float32) fail("indices are no whole numbers");
+    const NumberType number = type->second.first;
+    const bool unsigned_whole =
+        number == NumberType::uint8 || number == NumberType::uint16 || number == NumberType::uint32;
+    if (components == 1 && !unsigned_whole) fail("indices are no whole numbers from 0 on");
     Rows found{.count = whole(*accessor, "count").value_or(0), .components = components, .type = type->second.first};
-    if (accessor->value("normalized", Json()) == true) found.divisor = type->second.second;
+    if (components > 1 && accessor->value("normalized", Json()) == true) found.divisor = type->second.second;
     const std::size_t size = components * size_of(found.type);
     found.stride = whole(*view, "byteStride").value_or(size);
     const std::string& bytes = buffers_[*buffer];

@@ -248,7 +248,7 @@ TEST_SUITE("bad input") {
       text.replace(at, from.size(), to);
       return file_error_of([&] { (void)mesh_in(folder.file("a.gltf", text)); });
     };
-    const std::array<std::array<const char*, 3>, 16> cases{{
+    const std::array<std::array<const char*, 3>, 17> cases{{
         {R"("version": "2.0")", R"("version": "1.0")", "version 2.x is read"},
         {R"({"asset")", R"(["asset")", "is no glTF"},
         {R"("mesh": 0)", R"("mesh": 1)", "meshes 1 is not there: there are 1"},
@@ -263,6 +263,7 @@ TEST_SUITE("bad input") {
         {R"("byteLength": 68)", R"("byteLength": 69)", "buffer 0 has 68 bytes; 69 are needed"},
         {";base64,", ",", "not in base64"},
         {R"("count": 6)", R"("count": 18446744073709551615)", "ends beyond its bufferView"},
+        {R"("componentType": 5123, "count": 6)", R"("componentType": 5120, "count": 6)", "from 0 on"},
         {R"("count": 6, "type": "SCALAR")", R"("count": 6, "type": "SCALAR", "sparse": {})", "sparse"},
         {R"("scenes")", R"("extensionsRequired": ["KHR_draco_mesh_compression"], "scenes")", "export it without"},
     }};
