@@ -40,6 +40,7 @@ What is searched
   --disc-radius D    a length, or a share of the scene, as 1%
   --discs FILE, --ray-file FILE
                      your own discs and rays; columns below
+  --columns ox=px,.. what your files call them
 How
   --technique NAME   how pairs are found: box-tree, octree, grid ...;
                      default: the one that detp choose would choose
@@ -53,7 +54,8 @@ Until when
 Output
   --per-disc FILE    hits and irradiance of each disc: .csv, .ply, .vtp, .npy
   --per-face FILE    light that lands on each triangle, likewise
-  --standard-error   with --per-disc: the error of each irradiance
+  --picture FILE     the surface in the colours of its irradiance: .png, .svg
+  --standard-error   errors in these files and pictures
   --pairs FILE       every pair of a ray and a disc that it crosses
   --verbose          also effects, and counts with their predictions
   --format NAME      text, json or csv; -o FILE writes it to a file

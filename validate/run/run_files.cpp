@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -167,22 +168,18 @@ WrittenRun write_files(const RunFiles& files, const Job& job, const RunAnswer& a
   if (outcome.stopped) {
     // By the photons so far, the irradiance is an estimate; sums over other rays would be too small.
     const bool is_estimate = answer.taken.has_value();
-    if (((files.per_disc || files.picture) && !is_estimate) || files.per_face || files.pairs)
-      written.notices.emplace_back(
-          "stopped before the end: --per-disc, --per-face, --pairs and --picture are not written, because they would "
-          "be "
-          "partial");
-    const auto has_estimate = [&](const std::string& path) {
-      written.notices.push_back(
-          fmt::format("{} has the irradiance by the photons of the first {} rays", path, outcome.progress.done));
-    };
+    std::vector<std::string_view> left_out;
+    if (files.per_disc && !is_estimate) left_out.emplace_back("--per-disc");
+    if (files.per_face) left_out.emplace_back("--per-face");
+    if (files.pairs) left_out.emplace_back("--pairs");
+    if (files.picture) left_out.emplace_back("--picture");
+    if (!left_out.empty())
+      written.notices.push_back(fmt::format("stopped before the end: not written, because they would be partial: {}",
+                                            fmt::join(left_out, ", ")));
     if (is_estimate && files.per_disc) {
-      has_estimate(*files.per_disc);
+      written.notices.push_back(fmt::format("{} has the irradiance by the photons of the first {} rays",
+                                            *files.per_disc, outcome.progress.done));
       write_per_disc(*files.per_disc, answer.run, job, {});
-    }
-    if (is_estimate && files.picture) {
-      has_estimate(files.picture->path);
-      written.picture = write_picture(*files.picture, job, answer, {});
     }
     written.stopped = outcome.progress;
     return written;

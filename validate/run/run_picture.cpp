@@ -9,7 +9,9 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/parallel.hpp"
+#include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/sim/files/table_writer.hpp"
@@ -129,19 +131,25 @@ SeenBetween write_picture(const Picture& picture, const Job& job, const RunAnswe
   const sim::View view = view_of(picture, surface, job, found[0][0].values, stop);
   constexpr int fineness = ValuePanel::fineness;
   const sim::Cells cells(view, 0.75 * picture.width * picture.width * fineness * fineness);
+  constexpr double bytes_of_cell = 100;
+  sim::require_memory("a picture of this width", bytes_of_cell * static_cast<double>(cells.count()));
   const std::vector<sim::Seen> seen = look(surface.caster(), surface.mesh(), view, cells, answer.threads, stop);
   std::vector<Surface::Source> sources(seen.size());
   sim::on_threads(answer.threads, [&] {
-    sim::parallel_for(sim::ParallelRange(0, seen.size()), [&](const sim::ParallelRange& part) {
-      for (std::size_t i = part.begin(); i < part.end(); ++i)
+    sim::parallel_for(sim::ParallelRange(0, seen.size(), 1024), [&](const sim::ParallelRange& part) {
+      for (std::size_t i = part.begin(); i < part.end() && !stop.stop_requested(); ++i)
         if (seen[i].anything()) sources[i] = surface.source(seen[i]);
     });
   });
   const std::vector<char> edges = outlines(seen, surface.mesh(), view, cells);
+  const auto check_stop = [&] {
+    if (stop.stop_requested()) throw sim::Stopped("stopped while drawing a picture");
+  };
   PanelRows rows;
   for (std::vector<Found>& of_band : found) {
     rows.emplace_back();
     for (Found& one : of_band) {
+      check_stop();
       ValuePanel& panel = rows.back().emplace_back(
           ValuePanel{std::move(one.title), cells.width / fineness, cells.height / fineness, {}, edges});
       panel.scale = scale_of(one.values, picture.scaling);
@@ -156,6 +164,7 @@ SeenBetween write_picture(const Picture& picture, const Job& job, const RunAnswe
       }
     }
   }
+  check_stop();
   sim::OutputFile file(picture.path, stop);
   const bool is_svg = sim::suffix_of(picture.path) == ".svg";
   file.write(is_svg ? picture_svg(rows, "Irradiance in " + job.name) : picture_png(rows));

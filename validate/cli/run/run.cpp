@@ -84,7 +84,7 @@ std::optional<validate::Picture> picture_of(const RunOptions& options) {
     return std::nullopt;
   }
   validate::Picture picture{*options.picture};
-  require_count("--picture-width", options.picture_width, 20, 8000);
+  require_count("--picture-width", options.picture_width, 20, 4000);
   picture.width = options.picture_width;
   if (options.picture_scale)
     picture.scaling =
