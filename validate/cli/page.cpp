@@ -74,8 +74,8 @@ class PictureFile {
   }
 
  private:
-  std::string path_ = (std::filesystem::temp_directory_path() / "detp-XXXXXX.png").string();
   std::error_code ignored_;
+  std::string path_ = (std::filesystem::temp_directory_path(ignored_) / "detp-XXXXXX.png").string();
 };
 
 Result run_report(validate::ReportRequest request, const CommonOptions& common, const std::stop_token& stop) {
