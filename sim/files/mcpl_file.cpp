@@ -77,7 +77,10 @@ class McplFile {
 
   void read_header() {
     using enum NumberType;
-    particles_ = static_cast<std::uint64_t>(number(uint64));
+    const double particles = number(uint64);
+    constexpr double most = 0x1p53;
+    if (particles > most) fail(fmt::format("says that it has {:.3g} particles", particles));
+    particles_ = static_cast<std::uint64_t>(particles);
     const double comments = number(uint32);
     const double blobs = number(uint32);
     flags_ = number(uint32) != 0;

@@ -243,6 +243,8 @@ TEST_SUITE("bad input") {
     CHECK(refusal(good.substr(0, 30)).find("ends early") != std::string::npos);
     CHECK(refusal(replaced(good, "MCPL003", "MCPL002")).find("version 002") != std::string::npos);
     CHECK(refusal("no particles").find("is no MCPL file") != std::string::npos);
+    CHECK(refusal(good.substr(0, 8) + std::string(8, '\xFF') + good.substr(16)).find("1.84e+19 particles") !=
+          std::string::npos);
     std::string size = good;
     size[40] = 1;
     CHECK(refusal(size).find("by its other numbers") != std::string::npos);

@@ -23,7 +23,7 @@ std::string npy_of(const std::vector<double>& numbers, const std::string& shape,
 
 std::string little(std::size_t number, int bytes) {
   std::string text;
-  for (int i = 0; i < bytes; ++i) text += static_cast<char>(number >> (8 * i) & 0xFFU);
+  for (int i = 0; i < bytes; ++i, number /= 256) text += static_cast<char>(number % 256);
   return text;
 }
 
