@@ -41,6 +41,13 @@ class Surface {
     return Crossing{from + met->distance * scale, met->triangle};
   }
 
+  /// To the first one; unbounded if there is none.
+  [[nodiscard]] double distance(const glm::dvec3& origin, const glm::dvec3& direction, double to,
+                                std::optional<std::uint32_t> start) const {
+    const auto met = first(origin, direction, 0, to, start);
+    return met ? met->distance : unbounded;
+  }
+
   /// The nearest one to a distance.
   [[nodiscard]] std::optional<Crossing> nearest(const glm::dvec3& origin, const glm::dvec3& direction,
                                                 double at) const {
@@ -138,16 +145,15 @@ LandingCounts make_pieces(Paths& paths, const RayCaster& caster, const Box& box,
     // Backwards to the surface from which the photon came; around the box there is none within twice its diagonal.
     const double out = 2 * surface.diagonal();
     const auto start = met ? std::optional(met->triangle) : std::nullopt;
-    const auto before = surface.first(place + at * ray.direction, -ray.direction, 0, out, start);
-    const double length = before ? std::max(before->distance - gap, 0.5 * before->distance) : out;
-    const auto next = overshoot > gap
-                          ? surface.first(place + at * ray.direction, ray.direction, 0, overshoot + gap, start)
-                          : std::nullopt;
-    const double beyond = overshoot <= gap ? gap
-                          : !next          ? std::min(overshoot, out)
-                          : overshoot == unbounded
-                              ? next->distance + gap
-                              : std::min(overshoot, std::max(next->distance - gap, 0.5 * next->distance));
+    const double before = surface.distance(place + at * ray.direction, -ray.direction, out, start);
+    const double length = before == unbounded ? out : std::max(before - gap, 0.5 * before);
+    double beyond = gap;
+    if (overshoot > gap) {
+      const double next = surface.distance(place + at * ray.direction, ray.direction, overshoot + gap, start);
+      beyond = next == unbounded        ? std::min(overshoot, out)
+               : overshoot == unbounded ? next + gap
+                                        : std::min(overshoot, std::max(next - gap, 0.5 * next));
+    }
     ray.origin = place + (at - length) * ray.direction;
     ray.length = length + beyond;
     paths.landings[i] = length;

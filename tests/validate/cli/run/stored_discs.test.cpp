@@ -81,7 +81,10 @@ TEST_SUITE("end to end") {
     const Found parts = found(folder, line + " --memory-limit 70M", false);
     CHECK(parts.per_disc == all.per_disc);
     CHECK(parts.finished.json().at("hits") == all.finished.json().at("hits"));
-    if (!detp::support::sanitized) CHECK(parts.finished.peak_bytes < 74.0 * (1 << 20));
+    if (detp::support::sanitized) return;
+    CHECK(detp::support::in_attempts(3, [&] {  // the system may give large pages
+      return found(folder, line + " --memory-limit 70M", false).finished.peak_bytes < 74.0 * (1 << 20);
+    }));
   }
 }
 
@@ -151,9 +154,9 @@ TEST_SUITE("end to end") {
       CAPTURE(how);
       const std::string line = fmt::format("run @cornell --rays 60000 {} --quiet --repeat ", how);
       double few = 0;
-      CHECK(in_attempts(3, [&] {  // the system may split a large page meanwhile
+      CHECK(in_attempts(3, [&] {  // the system may split a few large pages of 512 meanwhile
         few = pages_of(line + "3");
-        return (pages_of(line + "23") - few) / 20 <= 20;
+        return (pages_of(line + "103") - few) / 100 <= 20;
       }));
       CHECK(pages_of(line + "3 --memory-limit 1G") > few);  // with a limit, memory goes back at once
     }
