@@ -1,6 +1,5 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <bit>
@@ -10,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "detp/sim/files/ray_file.hpp"
+#include "support/packed.hpp"
 #include "support/scratch_file.hpp"
 
 using namespace detp::sim;
@@ -56,20 +56,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
   return text;
-}
-
-std::string gzipped(const std::string& text) {
-  z_stream state{};
-  deflateInit2(&state, 9, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
-  std::string packed(text.size() + 1000, '\0');
-  state.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  state.avail_in = static_cast<uInt>(text.size());
-  state.next_out = reinterpret_cast<Bytef*>(packed.data());
-  state.avail_out = static_cast<uInt>(packed.size());
-  deflate(&state, Z_FINISH);
-  packed.resize(state.total_out);
-  deflateEnd(&state);
-  return packed;
 }
 
 std::string ply_head(const std::string& format, const std::string& element, const std::string& type,
@@ -152,7 +138,7 @@ std::vector<ForeignFile> foreign_files() {
           {"row numbers without a heading", "r.csv", table("," + heading, ",", "0")},
           {"a line sep=", "r.csv", "sep=;\n" + table(replaced(heading, ",", ";"), ";")},
           {"a byte order mark, and line ends of DOS", "r.csv", "\xEF\xBB\xBF" + table(heading, ",", "", "\r\n")},
-          {"gzip", "r.csv.gz", gzipped(plain)},
+          {"gzip", "r.csv.gz", detp::support::packed(plain)},
           {"no headings", "r.csv", plain.substr(plain.find('\n') + 1), "ox=1,oy=2,oz=3,dx=4,dy=5,dz=6,power=7"},
           {"other names", "r.csv", table(photon, ","), by_photon},
           {"PLY as text", "r.ply",
@@ -162,7 +148,7 @@ std::vector<ForeignFile> foreign_files() {
           {"PLY with the largest byte first", "r.ply",
            ply_head("binary_big_endian", "vertex", "double", heading) + all_bytes<double>(true)},
           {"PLY, gzip", "r.ply.gz",
-           gzipped(ply_head("binary_little_endian", "vertex", "double", heading) + all_bytes<double>())},
+           detp::support::packed(ply_head("binary_little_endian", "vertex", "double", heading) + all_bytes<double>())},
           {"an array of NumPy", "r.npy", npy("'<f4'", "(2, 7)", all_bytes<float>()),
            "ox=1,oy=2,oz=3,dx=4,dy=5,dz=6,power=7"},
           {"a structured array of NumPy", "r.npy", npy(structured + "]", "(2,)", all_bytes<double>(true))},
@@ -214,7 +200,7 @@ TEST_SUITE("known answer") {
     for (const bool big : {false, true})
       for (const bool single : {false, true}) {
         check_two(read_rays(folder.file("r.mcpl", mcpl(big, single, false))), "own weights");
-        check_two(read_rays(folder.file("r.mcpl.gz", gzipped(mcpl(big, single, false)))), "gzip");
+        check_two(read_rays(folder.file("r.mcpl.gz", detp::support::packed(mcpl(big, single, false)))), "gzip");
         const RayFile common = read_rays(folder.file("u.mcpl", mcpl(big, single, true)));
         CHECK(common.paths.rays[1].power == 2);
         CHECK(common.unused == std::vector<std::string>{"energy", "ekin", "time", "pdgcode"});

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <chrono>
 #include <csignal>
@@ -17,10 +16,12 @@
 #include "detp/sim/files/mesh_file.hpp"
 #include "detp/sim/files/ray_file.hpp"
 #include "detp/sim/files/table.hpp"
+#include "support/packed.hpp"
 #include "support/scratch_file.hpp"
 
 using namespace detp;
 using namespace detp::sim;
+using support::packed;
 using support::ScratchFolder;
 
 namespace {
@@ -198,26 +199,6 @@ TEST_SUITE("identity") {
     CHECK(rows < 1000 + (1 << 17) / 12 + 1);  // at most the rows that had been read before
   }
 }
-
-namespace {
-
-/// As gzip writes it.
-std::string packed(const std::string& text) {
-  z_stream state{};
-  REQUIRE(deflateInit2(&state, Z_BEST_SPEED, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY) == Z_OK);
-  std::string out(deflateBound(&state, text.size()), '\0');
-  std::string in = text;
-  state.next_in = reinterpret_cast<Bytef*>(in.data());
-  state.avail_in = static_cast<uInt>(in.size());
-  state.next_out = reinterpret_cast<Bytef*>(out.data());
-  state.avail_out = static_cast<uInt>(out.size());
-  REQUIRE(deflate(&state, Z_FINISH) == Z_STREAM_END);
-  out.resize(state.total_out);
-  deflateEnd(&state);
-  return out;
-}
-
-}  // namespace
 
 TEST_SUITE("compressed files") {
   TEST_CASE("what gzip has packed is read as it was, in one member or several") {

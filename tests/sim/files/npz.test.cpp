@@ -5,6 +5,7 @@
 
 #include "detp/sim/files/disc_file.hpp"
 #include "detp/sim/files/ray_file.hpp"
+#include "support/packed.hpp"
 #include "support/scratch_file.hpp"
 
 using namespace detp::sim;
@@ -27,26 +28,12 @@ std::string little(std::size_t number, int bytes) {
   return text;
 }
 
-std::string deflated(const std::string& bytes) {
-  z_stream state{};
-  deflateInit2(&state, 9, Z_DEFLATED, -MAX_WBITS, 9, Z_DEFAULT_STRATEGY);
-  std::string packed(bytes.size() + 1000, '\0');
-  state.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  state.avail_in = static_cast<uInt>(bytes.size());
-  state.next_out = reinterpret_cast<Bytef*>(packed.data());
-  state.avail_out = static_cast<uInt>(packed.size());
-  deflate(&state, Z_FINISH);
-  packed.resize(state.total_out);
-  deflateEnd(&state);
-  return packed;
-}
-
 /// An archive of these arrays. Local heads have no sizes, as those of numpy.
 std::string zip_of(const std::vector<std::pair<std::string, std::string>>& members, bool compress = false) {
   std::string data;
   std::string entries;
   for (const auto& [name, bytes] : members) {
-    const std::string packed = compress ? deflated(bytes) : bytes;
+    const std::string packed = compress ? detp::support::packed(bytes, false) : bytes;
     const auto checksum = crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size()));
     const std::string common = little(compress ? 8 : 0, 2) + little(0, 4) + little(checksum, 4);
     entries += "PK\x01\x02" + little(45, 2) + little(45, 2) + little(0, 2) + common + little(packed.size(), 4) +
