@@ -114,6 +114,8 @@ void set_memory_limit(std::optional<double> bytes) {
   limit_set = bytes.value_or(0);
 }
 
+bool memory_limit_is_set() { return explicit_limit() > 0; }
+
 double parse_bytes(std::string_view text) {
   constexpr std::string_view units = "KMGT";
   double value = 0;
@@ -143,7 +145,7 @@ void return_freed_memory() {
 void require_memory(std::string_view what, double bytes) {
   const double budget = memory_budget();
   if (bytes <= budget) return;
-  const bool set = explicit_limit() > 0;
+  const bool set = memory_limit_is_set();
   throw std::length_error(fmt::format("{} would take {:.3g} GB, more than {} ({:.3g} GB)", what, bytes / 1e9,
                                       set ? "the memory limit" : "half of the memory that this process may have",
                                       (set ? 1 : 2) * budget / 1e9));

@@ -22,6 +22,9 @@ namespace detp::sim {
 /// unless the value is > 0 and finite.
 void set_memory_limit(std::optional<double> bytes);
 
+/// Whether the limit is one of set_memory_limit or of the environment variable.
+[[nodiscard]] bool memory_limit_is_set();
+
 /// Reads a size > 0: "4G", "512M" or a number of bytes. K, M, G and T are powers of 1024. Throws std::invalid_argument
 /// for any other text.
 [[nodiscard]] double parse_bytes(std::string_view text);

@@ -1,29 +1,15 @@
 #include "scratch.hpp"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <bit>
 #include <new>
+
+#include "page_pool.hpp"
 
 namespace detp::sim {
 namespace {
 
 constexpr std::size_t cache_line = 64;  // bytes; the smallest size
-constexpr std::size_t large_page = std::size_t{1} << 21;
-
-std::align_val_t alignment_of(std::size_t size) {
-  return std::align_val_t{size >= large_page ? large_page : cache_line};
-}
-
-/// A block for do_allocate.
-void* from_heap(std::size_t size) {
-  void* const block = ::operator new(size, alignment_of(size));
-#ifdef MADV_HUGEPAGE
-  if (size >= large_page) madvise(block, size, MADV_HUGEPAGE);  // a hint
-#endif
-  return block;
-}
 
 /// Number of the size class of a request. The classes are 64 bytes, then four per octave: 80, 96, 112, 128, 160, …
 std::size_t class_of(std::size_t bytes) {
@@ -51,7 +37,7 @@ void Scratch::release() {
     while (Free* const block = free_[number]) {
       free_[number] = block->next;
       held_ -= size_of_class(number);
-      ::operator delete(block, alignment_of(size_of_class(number)));
+      page_pool().deallocate(block, size_of_class(number), cache_line);
     }
 }
 
@@ -65,7 +51,7 @@ void* Scratch::do_allocate(std::size_t bytes, std::size_t alignment) {
   if (block != nullptr) {
     free_[number] = free_[number]->next;
   } else {
-    block = from_heap(size);
+    block = page_pool().allocate(size, cache_line);
     held_ += size;
   }
   used_ += size;

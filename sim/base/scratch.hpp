@@ -11,8 +11,7 @@
 namespace detp::sim {
 
 /// A memory resource that keeps freed blocks and reuses them: a search that is repeated at the same size takes nothing
-/// from the heap. Sizes are rounded up to one of four sizes per octave; blocks are aligned to a cache line, large ones to large
-/// pages, which are asked for where the system offers them. The threads of one search may share a Scratch; simultaneous searches need
+/// from page_pool. Sizes are rounded up to one of four sizes per octave; blocks are aligned to a cache line. The threads of one search may share a Scratch; simultaneous searches need
 /// one each.
 class Scratch final : public std::pmr::memory_resource {
  public:
@@ -21,14 +20,14 @@ class Scratch final : public std::pmr::memory_resource {
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
-  /// Call it before each search. Calls release() if the bytes taken from the heap exceed twice the largest number of
+  /// Call it before each search. Calls release() if the bytes taken from page_pool exceed twice the largest number of
   /// bytes in use at once since the last call.
   void begin();
 
   /// Frees the blocks that are not in use.
   void release();
 
-  /// Bytes taken from the heap and not freed.
+  /// Bytes taken from page_pool and not returned.
   [[nodiscard]] std::size_t bytes() const { return held_; }
 
  private:

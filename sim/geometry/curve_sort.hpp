@@ -4,7 +4,7 @@
 #include <span>
 #include <stop_token>
 
-#include "detp/sim/base/unset_vector.hpp"
+#include "detp/sim/base/page_pool.hpp"
 #include "geometry.hpp"
 
 /// Sorts discs along the Morton curve (the paper: Lebesgue curve), coarsely and fast.

@@ -164,8 +164,8 @@ void FloatRays::load(std::span<const Ray> rays, const stream::Frame& frame) {
 
 CellDiscs::CellDiscs(const Problem& problem, std::span<const std::uint32_t> references, const std::stop_token& stop)
     : frame_(problem) {
-  std::vector<std::uint32_t> order(references.begin(), references.end());
-  order.resize(order.size() + padding);  // any disc; its lanes are not used
+  UnsetVector<std::uint32_t> order(references.begin(), references.end());
+  order.resize(order.size() + padding, 0);  // any disc; its lanes are not used
   discs_ = stream::discs_in_order(problem, frame_, std::move(order), {.stop = stop}).discs;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/base/page_pool.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/geometry/geometry.hpp"
 #include "totals.hpp"
@@ -80,7 +81,7 @@ struct RunOptions {
   /// path, give the same bits as one run over all rays.
   Totals* totals = nullptr;
   /// Memory for a search's arrays, except those that it returns. A Scratch keeps the memory for the next search.
-  std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
+  std::pmr::memory_resource* memory = &page_pool();
   /// Unless empty: called now and then during the search, with the share of the rays that are searched (ray-map and
   /// photon-map: of the discs), and with 1 after a search that was not stopped. The simd engine calls it before each block of rays; plain techniques with lists of rays
   /// do not call it. Calls do not overlap, but may come from different threads. It may request a stop.

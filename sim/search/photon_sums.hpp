@@ -71,7 +71,8 @@ struct PhotonBlocks {
   /// sixteenth of the discs, because the end of a block costs some time for each disc, and memory grows with the logarithm of the
   /// number of blocks.
   [[nodiscard]] static PhotonBlocks for_discs(std::size_t discs) {
-    return {std::countr_zero(std::bit_ceil(std::max(rays_in_block(discs), discs / 16)))};
+    constexpr std::size_t least = std::size_t{1} << 20;
+    return {std::countr_zero(std::bit_ceil(std::max({least, rays_in_block(discs), discs / 16})))};
   }
 
   [[nodiscard]] std::uint64_t of(std::uint64_t photon) const { return photon >> log2_size; }

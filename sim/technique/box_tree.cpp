@@ -51,7 +51,7 @@ class PlainSearch {
         lists_(options.memory) {}
 
   void run() {
-    const std::vector<std::uint32_t>& order = input_.tree.order;
+    const auto& order = input_.tree.order;
     collector_.save_totals();
     try {
       visit(input_.tree.nodes.front(), 0, list_of(input_.problem.rays(), lists_.get_allocator().resource()));

@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "detp/sim/base/unset_vector.hpp"
+#include "detp/sim/base/page_pool.hpp"
 #include "detp/sim/lists/pilot/box_tree_pilot.hpp"
 #include "detp/sim/lists/simd/search.hpp"
 #include "detp/sim/search/index.hpp"

@@ -139,7 +139,7 @@ class RayMapIndex final : public Index {
     built_.bytes = checked_bytes(
         what, static_cast<double>(sizeof(stream::FloatDisc) + 2 * sizeof(std::uint32_t)) * static_cast<double>(count),
         problem);
-    std::vector<std::uint32_t> order(count);
+    UnsetVector<std::uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0U);
     frame_.emplace(problem);
     floats_ = stream::discs_in_order(problem, *frame_, std::move(order), options);

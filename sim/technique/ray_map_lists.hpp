@@ -152,9 +152,7 @@ class VectorRays {
   [[nodiscard]] List inside(const List& around, const Box& box) {
     worker_.check.after(stream::test_work(size(around)));
     const stream::ArenaScope scope(worker_.lists);
-    stream::RayLists lists = worker_.lists.allocate_like(around.lists(), problem_.segments());
-    stream::cull_node(block_, in_floats(box), around.lists(), lists, worker_);
-    return kept(lists);
+    return kept(stream::cull_node(block_, in_floats(box), around.lists(), worker_));
   }
 
   std::size_t test(const List& rays, std::uint32_t disc, std::pmr::vector<std::uint32_t>& found) {

@@ -39,9 +39,9 @@ class FloatWalk final : public Index {
       : spheres_(std::move(spheres)), frame_(problem) {
     Stopwatch watch;
     built_.bytes = checked_bytes(spheres_.what, walk_bytes(problem, options, spheres_.lists, false), problem);
-    std::vector<std::uint32_t> order = along_curve(problem.discs(), spheres_.order, options.stop);
+    const std::vector<std::uint32_t> order = along_curve(problem.discs(), spheres_.order, options.stop);
     built_.seconds.order = watch.lap();
-    discs_ = stream::discs_in_order(problem, frame_, std::move(order), options);
+    discs_ = stream::discs_in_order(problem, frame_, {order.begin(), order.end()}, options);
     built_.seconds.build = watch.lap();
     built_.counts.sorted = sorted_discs(spheres_, problem);
   }

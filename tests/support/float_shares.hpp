@@ -95,7 +95,7 @@ struct Floats {
   explicit Floats(const sim::Problem& of) : problem(of), frame(of) {
     std::vector<std::uint32_t> order(problem.discs().size());
     std::iota(order.begin(), order.end(), 0U);
-    discs = sim::stream::discs_in_order(problem, frame, std::move(order));
+    discs = sim::stream::discs_in_order(problem, frame, {order.begin(), order.end()});
     for (sim::stream::RayList& list : lists) list = arena.allocate(problem.rays().size(), true);
     traits = load_rays(problem.rays(), frame, lists);
   }

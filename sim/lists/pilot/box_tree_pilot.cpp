@@ -199,8 +199,8 @@ void BoxTreePilot::cull_top(const Sample& sample, std::uint32_t number, Worker& 
 /// Returns the child's lists, which stay in the worker's arena until the caller's scope ends, and notes their size.
 RayLists BoxTreePilot::cull_child(const Sample& sample, std::uint32_t child, const RayLists& lists, double weight,
                                   Worker& worker) {
-  RayLists inside = worker.lists.allocate_like(lists, sample.block.segments);
-  if (size(lists) > 0) cull_node(sample.block, as_leaf(nodes_[child]), lists, inside, worker);
+  RayLists inside;
+  if (size(lists) > 0) inside = cull_node(sample.block, as_leaf(nodes_[child]), lists, worker);
   known_[child].rays = static_cast<float>(static_cast<double>(size(inside)) / sample.precision);
   known_[child].precision = static_cast<float>(sample.precision);
   known_[child].weight = static_cast<float>(weight);

@@ -91,8 +91,7 @@ void BoxTreePilot::draw_second_sample(const Sample& first, std::span<const Ray> 
     block.segments = segments;
     for (Region& region : second.regions) {
       const ArenaScope of_region(worker.lists);
-      RayLists inside = worker.lists.allocate_like(lists, true);
-      cull_node(block, as_leaf(nodes_[region.node]), lists, inside, worker);
+      const RayLists inside = cull_node(block, as_leaf(nodes_[region.node]), lists, worker);
       for (const RayList& list : inside)
         for (std::size_t i = 0; i < list.size; ++i) {
           const std::size_t ray = list.id[i] & ~falling;

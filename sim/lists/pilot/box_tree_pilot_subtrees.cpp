@@ -58,8 +58,8 @@ void BoxTreePilot::refine(const Sample& sample, Subtree& subtree, Worker& worker
   known_[subtree.first] = known_[subtree.root];
   known_[subtree.first].refined = 0;
   const ArenaScope scope(worker.lists);
-  RayLists inside = worker.lists.allocate_like(sample.lists, sample.block.segments);
-  if (size(sample.lists) > 0) cull_node(sample.block, as_leaf(nodes_[subtree.first]), sample.lists, inside, worker);
+  RayLists inside;
+  if (size(sample.lists) > 0) inside = cull_node(sample.block, as_leaf(nodes_[subtree.first]), sample.lists, worker);
   if (subtree.root != 0)
     known_[subtree.first].rays = static_cast<float>(static_cast<double>(size(inside)) / sample.precision);
   const Counts<std::uint64_t> before = worker.counts;

@@ -60,10 +60,10 @@ inline constexpr std::size_t tests_a_unit = 16;
 
 /// The data of one thread.
 struct Worker {
-  /// `floats` is the expected number of floats in the thread's lists.
+  /// `rays` is the expected number of rays in the thread's lists.
   explicit Worker(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::stop_token stop = {},
-                  std::size_t floats = 0)
-      : lists(memory, floats), pairs(memory), check(std::move(stop), "searching"), skipped(memory), found(memory) {}
+                  std::size_t rays = 0)
+      : lists(memory, rays), pairs(memory), check(std::move(stop), "searching"), skipped(memory), found(memory) {}
 
   ListArena lists;
   FoundPairs pairs;

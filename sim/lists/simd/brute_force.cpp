@@ -53,7 +53,7 @@ class FloatBruteForce final : public Index {
   FloatBruteForce(const Problem& problem, const RunOptions& options) : frame_(problem) {
     Stopwatch watch;
     built_.bytes = checked_bytes(what, all_bytes(size_of(problem, options)), problem);
-    std::vector<std::uint32_t> order(problem.discs().size());
+    UnsetVector<std::uint32_t> order(problem.discs().size());
     std::iota(order.begin(), order.end(), 0U);
     discs_ = discs_in_order(problem, frame_, std::move(order), options);
     built_.seconds.build = watch.lap();

@@ -142,7 +142,7 @@ DiscRun discs_below(const DiscTree& tree, const TreeNode& node) {
   return {first->first, last->first + last->count - first->first};
 }
 
-DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
+DiscTree discs_in_order(const Problem& problem, const Frame& frame, UnsetVector<std::uint32_t> order,
                         const RunOptions& options) {
   constexpr std::size_t grain = 4096;
   constexpr std::size_t prefetch_distance = 32;  // number of discs to prefetch
@@ -197,7 +197,7 @@ SortedDiscs discs_in_known_order(const Problem& problem, const Frame& frame, Cur
     throw std::invalid_argument(
         fmt::format("the order of {} discs is not one of {} discs", places->size(), problem.discs().size()));
   const Stopwatch watch;
-  std::vector<std::uint32_t> order(places->size());
+  UnsetVector<std::uint32_t> order(places->size());
   std::transform(places->begin(), places->end(), order.begin(), place_index);
   SortedDiscs sorted{.places = std::move(places), .tree = discs_in_order(problem, frame, std::move(order), options)};
   sorted.seconds = watch.seconds();

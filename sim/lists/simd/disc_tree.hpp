@@ -31,9 +31,9 @@ struct TreeNode {
 };
 
 struct DiscTree {
-  std::vector<TreeNode> nodes;       ///< the root is first; children of a node are adjacent
+  UnsetVector<TreeNode> nodes;       ///< the root is first; children of a node are adjacent
   UnsetVector<FloatDisc> discs;      ///< in the order of the leaves
-  std::vector<std::uint32_t> order;  ///< the discs' numbers in the problem
+  UnsetVector<std::uint32_t> order;  ///< the discs' numbers in the problem
   std::size_t binary_nodes = 0;      ///< number of nodes of the binary tree from which `nodes` were made
   /// expected sizes of the lists: a line through S₀ crosses a box with probability F(box)/F(S₀), F the surface
   ListCapacity lists;
@@ -96,7 +96,7 @@ struct DiscRun {
                                       const RunOptions& options = {});
 
 /// Returns the discs in the given order, as a tree without nodes. Throws Stopped if a stop was requested.
-[[nodiscard]] DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
+[[nodiscard]] DiscTree discs_in_order(const Problem& problem, const Frame& frame, UnsetVector<std::uint32_t> order,
                                       const RunOptions& options = {});
 
 }  // namespace detp::sim::stream

@@ -27,9 +27,9 @@ void test_all_classes(const BlockSearch& block, std::uint32_t first, std::uint32
 
 // Culls lists of rays down a tree of boxes to its leaves' discs; compiled for each instruction set.
 
-/// Lists the rays that may meet the node's box. `inside` must have room for all of `around`.
-void cull_node(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
-               Worker& worker);
+/// The rays that may meet the node's box: in the worker's arena, until the caller's scope ends.
+[[nodiscard]] RayLists cull_node(const BlockSearch& block, const TreeNode& node, const RayLists& around,
+                                 Worker& worker);
 
 /// Searches everything below a node; `lists` are the node's lists. If a stop was requested, ends early and adds the
 /// discs that were not searched to worker.skipped.

@@ -79,6 +79,7 @@ HWY_INLINE hn::Vec<Lanes> joined([[maybe_unused]] Lanes lanes, Half first, [[may
 }
 
 /// Appends the rays that `near` has a bit for.
+template <bool ends>
 HWY_INLINE void append(const Part& first, const Part& second, unsigned near, RayList& list) {
   const FloatLanes floats;
   const WordLanes words;
@@ -92,8 +93,10 @@ HWY_INLINE void append(const Part& first, const Part& second, unsigned near, Ray
   write(first.b, second.b, list.b);
   write(first.p, second.p, list.p);
   write(first.q, second.q, list.q);
-  write(first.from, second.from, list.from);
-  write(first.to, second.to, list.to);
+  if constexpr (ends) {
+    write(first.from, second.from, list.from);
+    write(first.to, second.to, list.to);
+  }
   hn::StoreU(hn::TableLookupLanes(joined(words, first.id, second.id), hn::IndicesFromVec(words, numbers)), words,
              list.id + end);
   list.size = end + static_cast<std::size_t>(std::popcount(near));
@@ -121,6 +124,7 @@ struct RayProperties {
 };
 
 /// Loads one vector of rays, of which the first `count` are valid.
+template <bool ends>
 HWY_INLINE Part load_part(const Ray* rays, std::size_t count, std::uint32_t number, const Frame& frame, Doubles power,
                           RayProperties& properties) {
   const DoubleLanes lanes;
@@ -133,7 +137,7 @@ HWY_INLINE Part load_part(const Ray* rays, std::size_t count, std::uint32_t numb
     return hn::Mul(hn::Sub(fields[axis], centre), hn::Set(lanes, frame.scale));
   };
   const Triple origin{place(0), place(1), place(2)};
-  const Doubles length = fields[length_at];
+  [[maybe_unused]] const Doubles length = fields[length_at];
 
   const Doubles dx = hn::Abs(direction.x);
   const Doubles dy = hn::Abs(direction.y);
@@ -150,48 +154,53 @@ HWY_INLINE Part load_part(const Ray* rays, std::size_t count, std::uint32_t numb
   const Doubles p = hn::Sub(turned(origin, first, second, 1), hn::Mul(a, start));
   const Doubles q = hn::Sub(turned(origin, first, second, 2), hn::Mul(b, start));
 
-  const Mask bounded = hn::Lt(length, hn::Set(lanes, unbounded));
-  const Doubles end = hn::Add(start, hn::Mul(hn::Mul(length, hn::Set(lanes, frame.scale)), z));
-  const Doubles far = hn::Set(lanes, 2 * outside);
-  const Doubles from = hn::IfThenElse(bounded, hn::Max(hn::Min(start, end), hn::Neg(far)), hn::Neg(far));
-  const Doubles to = hn::IfThenElse(bounded, hn::Min(hn::Max(start, end), far), far);
-
-  const Doubles reach = hn::Set(lanes, outside);
-  const Mask near = hn::And(hn::And(there, hn::Le(hn::Max(hn::Abs(p), hn::Abs(q)), reach)),
-                            hn::And(hn::Le(from, reach), hn::Ge(to, hn::Neg(reach))));
   const PartFloats floats;
-  Part part{.a = hn::DemoteTo(floats, a),
-            .b = hn::DemoteTo(floats, b),
-            .p = hn::DemoteTo(floats, p),
-            .q = hn::DemoteTo(floats, q),
-            .from = hn::DemoteTo(floats, from),
-            .to = hn::DemoteTo(floats, to),
-            .id = hn::Add(hn::Set(words, number), hn::Iota(words, 0)),
-            .near = {bits_of(hn::And(near, first)), bits_of(hn::And(near, second)),
-                     bits_of(hn::AndNot(hn::Or(first, second), near))}};
+  const Doubles reach = hn::Set(lanes, outside);
+  Mask near = hn::And(there, hn::Le(hn::Max(hn::Abs(p), hn::Abs(q)), reach));
+  Part part;
+  part.a = hn::DemoteTo(floats, a);
+  part.b = hn::DemoteTo(floats, b);
+  part.p = hn::DemoteTo(floats, p);
+  part.q = hn::DemoteTo(floats, q);
+  part.from = part.to = hn::Zero(floats);
+  part.id = hn::Add(hn::Set(words, number), hn::Iota(words, 0));
+  if constexpr (ends) {
+    const Mask bounded = hn::Lt(length, hn::Set(lanes, unbounded));
+    const Doubles end = hn::Add(start, hn::Mul(hn::Mul(length, hn::Set(lanes, frame.scale)), z));
+    const Doubles far = hn::Set(lanes, 2 * outside);
+    const Doubles from = hn::IfThenElse(bounded, hn::Max(hn::Min(start, end), hn::Neg(far)), hn::Neg(far));
+    const Doubles to = hn::IfThenElse(bounded, hn::Min(hn::Max(start, end), far), far);
+    near = hn::And(near, hn::And(hn::Le(from, reach), hn::Ge(to, hn::Neg(reach))));
+    part.from = hn::DemoteTo(floats, from);
+    part.to = hn::DemoteTo(floats, to);
+    properties.bounded = hn::Or(properties.bounded, hn::And(there, bounded));
+  }
+  part.near = {bits_of(hn::And(near, first)), bits_of(hn::And(near, second)),
+               bits_of(hn::AndNot(hn::Or(first, second), near))};
   // The sign of z, which is the direction's largest component and so not 0.
   part.id = hn::Or(part.id, hn::And(hn::BitCast(words, hn::DemoteTo(floats, z)), hn::Set(words, falling)));
 
-  properties.bounded = hn::Or(properties.bounded, hn::And(there, bounded));
   properties.other_power = hn::Or(properties.other_power, hn::And(there, hn::Ne(fields[power_at], power)));
   return part;
 }
 
 /// Loads `rays_at_once` rays, of which the first `count` are valid.
+template <bool ends>
 HWY_INLINE void load_some(const Ray* rays, std::size_t count, std::uint32_t number, const Frame& frame, Doubles power,
                           RayLists& lists, RayProperties& properties) {
-  const Part first = load_part(rays, std::min(count, rays_in_part), number, frame, power, properties);
+  const Part first = load_part<ends>(rays, std::min(count, rays_in_part), number, frame, power, properties);
   if constexpr (parts == 1) {
-    for (std::size_t k = 0; k < classes; ++k) append(first, first, first.near[k], lists[k]);
+    for (std::size_t k = 0; k < classes; ++k) append<ends>(first, first, first.near[k], lists[k]);
   } else {
-    const Part second = load_part(rays + rays_in_part, count - std::min(count, rays_in_part),
-                                  number + static_cast<std::uint32_t>(rays_in_part), frame, power, properties);
+    const Part second = load_part<ends>(rays + rays_in_part, count - std::min(count, rays_in_part),
+                                        number + static_cast<std::uint32_t>(rays_in_part), frame, power, properties);
     for (std::size_t k = 0; k < classes; ++k)
-      append(first, second, first.near[k] | second.near[k] << rays_in_part, lists[k]);
+      append<ends>(first, second, first.near[k] | second.near[k] << rays_in_part, lists[k]);
   }
 }
 
-RayTraits LoadRays(std::span<const Ray> rays, const Frame& given, RayLists& filled) {
+template <bool ends>
+RayTraits load(std::span<const Ray> rays, const Frame& given, RayLists& filled) {
   // Local copies, so that the compiler can keep them in registers: a vector store might otherwise alias data that is
   // passed by reference.
   const Frame frame = given;
@@ -205,16 +214,20 @@ RayTraits LoadRays(std::span<const Ray> rays, const Frame& given, RayLists& fill
     // Prefetches rays that come from memory. (Prefetching did not help for rays in the third-level cache.)
     for (std::size_t j = i + prefetch_distance; j < HWY_MIN(i + prefetch_distance + step, rays.size()); ++j)
       hwy::Prefetch(&rays[j]);
-    load_some(&rays[i], step, static_cast<std::uint32_t>(i), frame, power, lists, properties);
+    load_some<ends>(&rays[i], step, static_cast<std::uint32_t>(i), frame, power, lists, properties);
   }
   if (i < rays.size()) {
     Ray last[8];
     std::copy(rays.begin() + static_cast<std::ptrdiff_t>(i), rays.end(), last);
-    load_some(last, rays.size() - i, static_cast<std::uint32_t>(i), frame, power, lists, properties);
+    load_some<ends>(last, rays.size() - i, static_cast<std::uint32_t>(i), frame, power, lists, properties);
   }
   filled = lists;
   const bool same = hn::AllFalse(lanes, properties.other_power);
   return {!hn::AllFalse(lanes, properties.bounded), same ? std::optional(rays.front().power) : std::nullopt};
+}
+
+RayTraits LoadRays(std::span<const Ray> rays, const Frame& frame, RayLists& lists) {
+  return lists[0].from != nullptr ? load<true>(rays, frame, lists) : load<false>(rays, frame, lists);
 }
 
 }  // namespace HWY_NAMESPACE

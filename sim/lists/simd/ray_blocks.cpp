@@ -18,7 +18,7 @@ void Block::load(const Problem& problem, const Frame& frame, std::size_t first, 
   const auto rays = problem.rays().subspan(first, std::min(size, problem.rays().size() - first));
   arena_.release({});
   capacity_ = std::max(capacity_, rays.size());
-  for (RayList& list : lists_) list = arena_.allocate(capacity_, true);
+  for (RayList& list : lists_) list = arena_.allocate(capacity_, problem.segments());
   size_ = rays.size();
   traits_ = load_rays(rays, frame, lists_);
   if (!keep_powers_) return;

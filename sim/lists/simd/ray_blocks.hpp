@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "detp/sim/base/parallel.hpp"
+#include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/run_memory.hpp"
 #include "ray_list.hpp"
 
@@ -18,7 +19,7 @@ struct RayTraits {
 
 /// Converts rays to the frame's coordinates and sorts them by class; their numbers start at 0. Leaves out rays that
 /// stay far from S₀. There must be at least one ray, and at most 2³¹. Each list must be empty and have room for all
-/// rays and their ends. Fills the padding behind each list with zeros: the kernels compute with it, and whatever is in
+/// rays, and for their ends unless all are lines. Fills the padding behind each list with zeros: the kernels compute with it, and whatever is in
 /// reused memory may be subnormal numbers, with which a test of few rays takes ten times as long.
 RayTraits load_rays(std::span<const Ray> rays, const Frame& frame, RayLists& lists);
 
@@ -72,12 +73,18 @@ void for_each_block(const Problem& problem, const Frame& frame, const RunOptions
   const bool keep_powers = needs_powers(problem, options);
   Block now(options.memory, keep_powers);
   Block next(options.memory, keep_powers);
+  const bool alone = thread_count(options.threads) == 1;
   now.load(problem, frame, 0, size_at(0));
   while (now.first() < problem.rays().size()) {
     if (options.progress)
       options.progress(static_cast<double>(now.first()) / static_cast<double>(problem.rays().size()));
     if (options.stop.stop_requested()) break;
     const std::size_t end = now.first() + now.size();
+    if (alone) {
+      search(now);
+      now.load(problem, frame, end, size_at(end));
+      continue;
+    }
     sim::parallel_invoke([&] { next.load(problem, frame, end, size_at(end)); }, [&] { search(now); });
     std::swap(now, next);
   }

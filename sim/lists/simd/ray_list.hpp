@@ -46,21 +46,43 @@ using RayLists = std::array<RayList, classes>;
 
 [[nodiscard]] inline std::size_t size(const RayLists& lists) { return lists[0].size + lists[1].size + lists[2].size; }
 
-/// Memory for lists, last in, first out. Pages are only touched as far as lists are filled. Throws std::length_error
-/// before the memory budget would be exceeded.
+/// Memory for lists, last in, first out. A list that is culled starts where the list before it ends, so nested lists touch no more
+/// pages than they fill. Throws std::length_error before the memory budget would be exceeded.
 class ListArena {
  public:
-  /// `expected` is the number of floats expected in all lists; the first chunk has at least this many.
+  /// `expected` is the number of rays expected in all lists; the first chunk has room for at least this many.
   explicit ListArena(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::size_t expected = 0)
       : expected_(expected), chunks_(memory) {}
 
   /// A list with room for `capacity` rays.
-  [[nodiscard]] RayList allocate(std::size_t capacity, bool segments);
+  [[nodiscard]] RayList allocate(std::size_t capacity, bool segments) {
+    const RayList list = next(capacity, segments);
+    used_ += rounded(capacity + padding);
+    return list;
+  }
 
   /// For each class, a list with room for all rays that `lists` has of that class.
   [[nodiscard]] RayLists allocate_like(const RayLists& lists, bool segments) {
     return {allocate(lists[0].size, segments), allocate(lists[1].size, segments), allocate(lists[2].size, segments)};
   }
+
+  /// A list with room for `most` rays, until the next call of a member function. To be filled, then kept.
+  [[nodiscard]] RayList next(std::size_t most, bool segments) {
+    if (chunk_ == chunks_.size() || used_ + most + padding > chunks_[chunk_].rays ||
+        (segments && !chunks_[chunk_].segments))
+      next_chunk(most, segments);
+    const Chunk& chunk = chunks_[chunk_];
+    float* const start = chunk.start.get() + used_;
+    RayList list{.a = start, .b = start + chunk.stride, .p = start + 2 * chunk.stride, .q = start + 3 * chunk.stride};
+    list.id = reinterpret_cast<std::uint32_t*>(start + 4 * chunk.stride);
+    if (!segments) return list;
+    list.from = start + 5 * chunk.stride;
+    list.to = start + 6 * chunk.stride;
+    return list;
+  }
+
+  /// Keeps the list of the latest call of next(), as it is filled.
+  void keep(const RayList& list) { used_ += rounded(list.size); }
 
   struct Mark {
     std::size_t chunk;
@@ -75,7 +97,8 @@ class ListArena {
   }
 
  private:
-  float* allocate_floats(std::size_t count);
+  [[nodiscard]] static std::size_t rounded(std::size_t rays) { return (rays + padding - 1) / padding * padding; }
+  void next_chunk(std::size_t most, bool segments);
 
   /// Returns floats to the memory resource from which they were allocated.
   struct Deallocate {
@@ -87,13 +110,15 @@ class ListArena {
 
   struct Chunk {
     std::unique_ptr<float, Deallocate> start;
-    std::size_t size;
+    std::size_t rays;    ///< in each array
+    std::size_t stride;  ///< floats from array to array
+    bool segments;
   };
   std::size_t expected_;
   std::pmr::vector<Chunk> chunks_;
   std::size_t chunk_ = 0;
-  std::size_t used_ = 0;
-  double bytes_ = 0;  ///< of all chunks
+  std::size_t used_ = 0;  ///< rays
+  double bytes_ = 0;      ///< of all chunks
 };
 
 /// At the end of a scope, frees the lists allocated in that scope.

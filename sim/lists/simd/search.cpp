@@ -28,8 +28,7 @@ void divide(const BlockSearch& block, const TreeNode& node, const RayLists& list
     if (worker.check.requested_after(test_work(size(lists))))
       return worker.skipped.push_back(discs_below(block.tree, next));
     const ArenaScope scope(worker.lists);
-    RayLists inside = worker.lists.allocate_like(lists, block.segments);
-    cull_node(block, next, lists, inside, worker);
+    const RayLists inside = cull_node(block, next, lists, worker);
     if (size(inside) > 0) divide(block, next, inside, workers);
   });
 }
@@ -46,7 +45,7 @@ void search_boxes(const SearchInput& input, const RunOptions& options, Outcome& 
   const TreeSize made{static_cast<double>(tree.binary_nodes), static_cast<double>(tree.nodes.size()), tree.lists};
   add_checked_bytes("the tree of boxes and its lists of rays", boxes_bytes(size, made), problem, outcome);
   on_threads(thread_count(options.threads), [&] {
-    Workers workers([&] { return Worker(options.memory, options.stop, list_floats(size, tree.lists)); });
+    Workers workers([&] { return Worker(options.memory, options.stop, list_rays(size, tree.lists)); });
     DiscResults results(problem, tree, options, outcome);
     for_each_block(problem, frame, options, [&](const Block& block) {
       divide(results.begin(frame, block), tree.nodes.front(), block.lists(), workers);

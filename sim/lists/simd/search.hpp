@@ -55,8 +55,8 @@ struct TreeSize {
 /// Predicted peak bytes of search_walk, in addition to rays, discs and pairs, and including sorting before it.
 [[nodiscard]] double walk_bytes(const SearchSize& size, const ListCapacity& lists);
 
-/// Number of floats in the nested lists of one thread, touched or not.
-[[nodiscard]] std::size_t list_floats(const SearchSize& size, const ListCapacity& lists);
+/// Number of rays for which the nested lists of one thread have room, touched or not.
+[[nodiscard]] std::size_t list_rays(const SearchSize& size, const ListCapacity& lists);
 
 /// The input of a search: a problem's rays, and its discs in an order or in a tree.
 struct SearchInput {

@@ -57,8 +57,8 @@ SearchSize size_of(const Problem& problem, const RunOptions& options) {
           .own_totals = options.totals == nullptr};
 }
 
-std::size_t list_floats(const SearchSize& size, const ListCapacity& lists) {
-  return static_cast<std::size_t>(floats_per_ray(size) * rays_together(size) * (1 + lists.all));
+std::size_t list_rays(const SearchSize& size, const ListCapacity& lists) {
+  return static_cast<std::size_t>(rays_together(size) * (1 + lists.all));
 }
 
 double all_bytes(const SearchSize& size) { return searching_bytes(size, 0, 0); }

@@ -14,15 +14,21 @@ namespace detp::sim::stream {
 namespace HWY_NAMESPACE {
 
 template <bool segments>
-HWY_INLINE void cull(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
-                     Worker& worker) {
-  cull_box<segments, 0>(around[0], node, block.frame.margin, inside[0]);
-  cull_box<segments, 1>(around[1], node, block.frame.margin, inside[1]);
-  cull_box<segments, 2>(around[2], node, block.frame.margin, inside[2]);
+HWY_INLINE RayLists cull(const BlockSearch& block, const TreeNode& node, const RayLists& around, Worker& worker) {
+  const float margin = block.frame.margin;
+  RayLists inside;
+  const auto list = [&](std::size_t k) -> RayList& { return inside[k] = worker.lists.next(around[k].size, segments); };
+  cull_box<segments, 0>(around[0], node, margin, list(0));
+  worker.lists.keep(inside[0]);
+  cull_box<segments, 1>(around[1], node, margin, list(1));
+  worker.lists.keep(inside[1]);
+  cull_box<segments, 2>(around[2], node, margin, list(2));
+  worker.lists.keep(inside[2]);
   worker.counts.cull_tests += size(around);
   worker.counts.listed += size(inside);
   ++worker.counts.culls;
   if (block.vectors) worker.vectors.cull += vectors_of(around);
+  return inside;
 }
 
 /// Tests a leaf's discs in portions, and checks for a stop request before each portion.
@@ -43,22 +49,20 @@ void visit_leaf(const BlockSearch& block, TreeNode leaf, const RayLists& lists, 
 template <bool segments, bool counting_only>
 void visit(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Worker& worker) {
   if (node.leaf) return visit_leaf<segments, counting_only>(block, node, lists, worker);
-  const ArenaScope scope(worker.lists);
-  RayLists inside = worker.lists.allocate_like(lists, segments);
   for (std::uint32_t child = node.first; child < node.first + node.count; ++child) {
     const TreeNode& next = block.tree.nodes[child];
     if (worker.check.requested_after(test_work(size(lists)))) {
       worker.skipped.push_back(discs_below(block.tree, next));
       continue;
     }
-    cull<segments>(block, next, lists, inside, worker);
+    const ArenaScope scope(worker.lists);
+    const RayLists inside = cull<segments>(block, next, lists, worker);
     if (size(inside) > 0) visit<segments, counting_only>(block, next, inside, worker);
   }
 }
 
-void CullNode(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
-              Worker& worker) {
-  block.segments ? cull<true>(block, node, around, inside, worker) : cull<false>(block, node, around, inside, worker);
+RayLists CullNode(const BlockSearch& block, const TreeNode& node, const RayLists& around, Worker& worker) {
+  return block.segments ? cull<true>(block, node, around, worker) : cull<false>(block, node, around, worker);
 }
 
 void SearchBelow(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Worker& worker) {
@@ -81,9 +85,8 @@ HWY_EXPORT(CullNode);
 HWY_EXPORT(SearchBelow);
 HWY_EXPORT(InstructionSet);
 
-void cull_node(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
-               Worker& worker) {
-  HWY_DYNAMIC_DISPATCH(CullNode)(block, node, around, inside, worker);
+RayLists cull_node(const BlockSearch& block, const TreeNode& node, const RayLists& around, Worker& worker) {
+  return HWY_DYNAMIC_DISPATCH(CullNode)(block, node, around, worker);
 }
 
 void search_below(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Worker& worker) {

@@ -68,8 +68,9 @@ class ClassWalk {
     built_ = level + 1;
     marks_[level] = worker_.lists.mark();
     const RayList& around = lists_[level - 1];
-    lists_[level] = worker_.lists.allocate(around.size, block_.segments);
+    lists_[level] = worker_.lists.next(around.size, block_.segments);
     cull_sphere(block_, k_, block_.frame(walk_.sphere(static_cast<int>(level))), around, lists_[level], worker_);
+    worker_.lists.keep(lists_[level]);
     worker_.counts.culls += k_ == 0 ? 1 : 0;
     worker_.counts.cull_tests += around.size;
     worker_.counts.listed += lists_[level].size;
@@ -115,8 +116,8 @@ void search_walk(const SearchInput& input, const MakeWalk& make_walk, const List
   const Problem& problem = input.problem;
   const Frame& frame = input.frame;
   const DiscTree& discs = input.tree;
-  const std::size_t floats = list_floats(size_of(problem, options), room);
-  const auto worker = [&] { return Worker(options.memory, options.stop, floats); };
+  const std::size_t rays = list_rays(size_of(problem, options), room);
+  const auto worker = [&] { return Worker(options.memory, options.stop, rays); };
   std::array workers{worker(), worker(), worker()};
   using Events = std::pmr::vector<SphereCounts>;
   std::array events{Events(options.memory), Events(options.memory), Events(options.memory)};
