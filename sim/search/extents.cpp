@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 
 #include "detp/sim/base/transpose-inl.hpp"
 #include "soundness.hpp"
@@ -18,11 +19,9 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using DoubleLanes = hn::CappedTag<double, 4>;
-using Doubles = hn::Vec<DoubleLanes>;
-using Mask = hn::Mask<DoubleLanes>;
-
-constexpr std::size_t n = hn::MaxLanes(DoubleLanes());
+/// A vector has at most as many lanes as an item has doubles; these are 2ⁱ.
+template <class Item>
+using LanesOf = hn::CappedTag<double, sizeof(Item) < 8 * sizeof(double) ? 4 : 8>;
 
 HWY_INLINE const double* first_double(const Disc* disc) { return &disc->centre.x; }
 HWY_INLINE const double* first_double(const Ray* ray) { return &ray->origin.x; }
@@ -30,12 +29,14 @@ HWY_INLINE const double* first_double(const Ray* ray) { return &ray->origin.x; }
 /// Calls visit(fields) for all items, n at a time: double j of each is in fields[j]. The last item is repeated to fill the vectors.
 template <class Item, class Visit>
 HWY_INLINE void for_each_vector(std::span<const Item> items, const Visit& visit) {
+  using Lanes = LanesOf<Item>;
+  constexpr std::size_t n = hn::MaxLanes(Lanes());
   constexpr std::size_t size = sizeof(Item) / sizeof(double);
   const auto load = [&](const Item* first) {
-    Doubles fields[size];
+    hn::Vec<Lanes> fields[size];
     for (std::size_t j = 0; j < size; j += n) {
       const std::size_t column = std::min(j, size - n);  // some columns of discs are loaded twice
-      transpose<size>(DoubleLanes(), first_double(first) + column, fields + column);
+      transpose<size>(Lanes(), first_double(first) + column, fields + column);
     }
     visit(fields);
   };
@@ -48,39 +49,45 @@ HWY_INLINE void for_each_vector(std::span<const Item> items, const Visit& visit)
 }
 
 /// Rounded like glm::dot.
+template <class Doubles>
 HWY_INLINE Doubles square(const Doubles* vector) {
   return hn::Add(hn::Add(hn::Mul(vector[0], vector[0]), hn::Mul(vector[1], vector[1])), hn::Mul(vector[2], vector[2]));
 }
 
 /// surely_in_range and surely_unit of the first three doubles and of the next three.
-HWY_INLINE Mask sound_vectors(const Doubles* fields) {
-  const DoubleLanes lanes;
-  const Doubles off = hn::Abs(hn::Sub(square(fields + 3), hn::Set(lanes, 1.0)));
+template <class Lanes>
+HWY_INLINE hn::Mask<Lanes> sound_vectors(Lanes lanes, const hn::Vec<Lanes>* fields) {
+  const auto off = hn::Abs(hn::Sub(square(fields + 3), hn::Set(lanes, 1.0)));
   return hn::And(hn::Le(square(fields), hn::Set(lanes, largest_coordinate * largest_coordinate)),
                  hn::Le(off, hn::Set(lanes, unit_tolerance)));
 }
 
 // Highway's MinOfLanes and MaxOfLanes lose infinite numbers on EMU128.
-HWY_INLINE double least(Doubles values) {
-  HWY_ALIGN double all[n];
-  hn::Store(values, DoubleLanes(), all);
-  return *std::min_element(all, all + n);
+template <class Lanes>
+HWY_INLINE double least(Lanes lanes, hn::Vec<Lanes> values) {
+  HWY_ALIGN double all[hn::MaxLanes(lanes)];
+  hn::Store(values, lanes, all);
+  return *std::min_element(std::begin(all), std::end(all));
 }
-HWY_INLINE double most(Doubles values) {
-  HWY_ALIGN double all[n];
-  hn::Store(values, DoubleLanes(), all);
-  return *std::max_element(all, all + n);
+template <class Lanes>
+HWY_INLINE double most(Lanes lanes, hn::Vec<Lanes> values) {
+  HWY_ALIGN double all[hn::MaxLanes(lanes)];
+  hn::Store(values, lanes, all);
+  return *std::max_element(std::begin(all), std::end(all));
 }
 
 DiscExtent DiscExtentOf(std::span<const Disc> discs) {
-  const DoubleLanes lanes;
+  using Lanes = LanesOf<Disc>;
+  using Doubles = hn::Vec<Lanes>;
+  using Mask = hn::Mask<Lanes>;
+  const Lanes lanes;
   Doubles low[3];
   Doubles high[3];
   std::fill_n(low, 3, hn::Set(lanes, unbounded));
   std::fill_n(high, 3, hn::Set(lanes, -unbounded));
   Doubles smallest = hn::Set(lanes, unbounded);
   Doubles largest = hn::Zero(lanes);
-  Mask sound = hn::FirstN(lanes, n);
+  Mask sound = hn::FirstN(lanes, hn::MaxLanes(lanes));
   for_each_vector(discs, [&](const Doubles* fields) {
     const Doubles radius = fields[6];
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -91,22 +98,26 @@ DiscExtent DiscExtentOf(std::span<const Disc> discs) {
     largest = hn::Max(largest, radius);
     const Mask radii =
         hn::And(hn::Ge(radius, hn::Set(lanes, least_radius)), hn::Le(radius, hn::Set(lanes, largest_coordinate)));
-    sound = hn::And(sound, hn::And(sound_vectors(fields), radii));
+    sound = hn::And(sound, hn::And(sound_vectors(lanes, fields), radii));
   });
-  return {.centres = {{least(low[0]), least(low[1]), least(low[2])}, {most(high[0]), most(high[1]), most(high[2])}},
-          .smallest = least(smallest),
-          .largest = most(largest),
+  return {.centres = {{least(lanes, low[0]), least(lanes, low[1]), least(lanes, low[2])},
+                      {most(lanes, high[0]), most(lanes, high[1]), most(lanes, high[2])}},
+          .smallest = least(lanes, smallest),
+          .largest = most(lanes, largest),
           .sound = hn::AllTrue(lanes, sound)};
 }
 
 RayExtent RayExtentOf(std::span<const Ray> rays, const glm::dvec3& centre, double power_limit) {
-  const DoubleLanes lanes;
+  using Lanes = LanesOf<Ray>;
+  using Doubles = hn::Vec<Lanes>;
+  using Mask = hn::Mask<Lanes>;
+  const Lanes lanes;
   const Doubles from[3] = {hn::Set(lanes, centre.x), hn::Set(lanes, centre.y), hn::Set(lanes, centre.z)};
   Doubles farthest2 = hn::Zero(lanes);
   Doubles least_power = hn::Set(lanes, unbounded);
   Doubles most_power = hn::Zero(lanes);
   Doubles least_length = hn::Set(lanes, unbounded);
-  Mask sound = hn::FirstN(lanes, n);
+  Mask sound = hn::FirstN(lanes, hn::MaxLanes(lanes));
   for_each_vector(rays, [&](const Doubles* fields) {
     const Doubles length = fields[6];
     const Doubles power = fields[7];
@@ -117,12 +128,12 @@ RayExtent RayExtentOf(std::span<const Ray> rays, const glm::dvec3& centre, doubl
     least_length = hn::Min(least_length, length);
     const Mask lengths = hn::Gt(length, hn::Zero(lanes));
     const Mask powers = hn::And(hn::Ge(power, hn::Zero(lanes)), hn::Le(power, hn::Set(lanes, power_limit)));
-    sound = hn::And(hn::And(sound, sound_vectors(fields)), hn::And(lengths, powers));
+    sound = hn::And(hn::And(sound, sound_vectors(lanes, fields)), hn::And(lengths, powers));
   });
-  return {.farthest2 = most(farthest2),
-          .least_power = least(least_power),
-          .most_power = most(most_power),
-          .least_length = least(least_length),
+  return {.farthest2 = most(lanes, farthest2),
+          .least_power = least(lanes, least_power),
+          .most_power = most(lanes, most_power),
+          .least_length = least(lanes, least_length),
           .sound = hn::AllTrue(lanes, sound)};
 }
 

@@ -12,7 +12,7 @@
 /// Chooses by a sample of rays, through parts of the index; what is sampled, and what is known of box trees before that.
 namespace detp::validate {
 
-/// The time of a run in units of some 50 ns, roughly.
+/// The time of a run in units of some 10 to 50 ns, roughly.
 [[nodiscard]] double work_of(double rays, double discs);
 
 /// The number of rays that a pilot samples: 64 to 2048, the more the longer the search will take.
@@ -35,7 +35,7 @@ namespace detp::validate {
 /// p/u, the time for placing a disc in a leaf over that for testing a ray against a disc, by the simd engine with AVX-512.
 inline constexpr double usual_placing = 128;
 
-/// A good box tree for that many rays and discs, without a look at them: fan-out 8, and leaves of
+/// A good box tree for that many rays and discs, without a look at them: fan-out 4, and leaves of
 ///
 ///     24 (n_P/n_R)^0.3 (p/(128 u))^0.35, rounded to a power of two from 8 to 512
 ///
@@ -44,8 +44,8 @@ inline constexpr double usual_placing = 128;
 /// Source     fitted to exact counts, priced with calibrated unit costs, of fan-outs 4 to 32 with leaves 4 to 512, on
 ///            lines and photon paths, 10² to 10⁵ rays, radii of 0.25 to 4 % of the scene: @courtyard and @tree. The
 ///            unit costs are those of one machine with AVX-512, AVX2, SSE4 and scalar code (p/u = 133, 73, 27 and 11).
-/// Accuracy   time over that of the best of these shapes, priced alike, on four meshes that were not fitted: 0.6 to 0.8 %
-///            more in the geometric mean, at most 4 to 8 %. Without p/u: 0.6, 0.5, 2.2 and 5.5 %, at most 4, 6, 15 and 29 %.
+/// Accuracy   measured time over that of the fastest of 35 shapes (fan-outs 2 to 8, leaves of 4 to 256), on 21 workloads, on some of which the
+///            fan-out was set (Zen 5, AVX-512): 6 % more in the geometric mean, at most 17 %; with fan-out 8 7.5 and 28 %.
 /// Throws     std::invalid_argument unless both numbers are from 1 to 1e18, and if `placing` is NaN.
 [[nodiscard]] BoxTreeParameters usual_shape(double rays, double discs, double placing = usual_placing);
 

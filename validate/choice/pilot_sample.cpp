@@ -85,7 +85,7 @@ BoxTreeParameters usual_shape(double rays, double discs, double placing) {
   const double power = std::clamp(std::log2(24) + 0.3 * std::log2(discs / rays) +
                                       0.35 * std::log2(std::clamp(placing, 1.0, 1024.0) / usual_placing),
                                   least, most);
-  return {8, 1 << std::lround(power)};
+  return {4, 1 << std::lround(power)};
 }
 
 Counts<double> least_box_tree_counts(const sim::Problem& problem, std::span<const sim::Ray> sample, double rays) {

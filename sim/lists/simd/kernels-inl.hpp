@@ -43,29 +43,122 @@ HWY_INLINE Mask in_list(std::size_t first, std::size_t size) {
   return hn::FirstN(lanes, HWY_MIN(size - first, hn::Lanes(lanes)));
 }
 
-/// Appends to `to` the kept lanes of the vector at `first` of `from`.
+/// One vector of rays of a list that is culled, and the lanes that are kept.
+template <bool segments>
+struct TestedRays {
+  Floats a, b, p, q, from, to;
+  Mask kept;
+};
+
+/// Appends to `to` the kept lanes of the vector at `first` of `list`.
 ///
 /// The numbers of the kept lanes are found once. Each array is then permuted. (A Compress for each array would take five
 /// cycles on Zen 5, and a table lookup without AVX-512.)
 template <bool segments>
-HWY_INLINE void append(const RayList& from, std::size_t first, Floats a, Floats b, Floats p, Floats q, Mask kept,
-                       RayList& to) {
+HWY_INLINE void append(const RayList& list, std::size_t first, const TestedRays<segments>& rays, RayList& to) {
   const FloatLanes lanes;
   const WordLanes words;
-  const auto chosen = kept_lanes(lanes, kept);
+  const auto chosen = kept_lanes(lanes, rays.kept);
   const auto places = hn::IndicesFromVec(lanes, chosen);
   const std::size_t end = to.size;
-  hn::StoreU(hn::TableLookupLanes(a, places), lanes, to.a + end);
-  hn::StoreU(hn::TableLookupLanes(b, places), lanes, to.b + end);
-  hn::StoreU(hn::TableLookupLanes(p, places), lanes, to.p + end);
-  hn::StoreU(hn::TableLookupLanes(q, places), lanes, to.q + end);
-  const auto ids = hn::Load(words, from.id + first);
+  hn::StoreU(hn::TableLookupLanes(rays.a, places), lanes, to.a + end);
+  hn::StoreU(hn::TableLookupLanes(rays.b, places), lanes, to.b + end);
+  hn::StoreU(hn::TableLookupLanes(rays.p, places), lanes, to.p + end);
+  hn::StoreU(hn::TableLookupLanes(rays.q, places), lanes, to.q + end);
+  const auto ids = hn::Load(words, list.id + first);
   hn::StoreU(hn::TableLookupLanes(ids, hn::IndicesFromVec(words, chosen)), words, to.id + end);
   if constexpr (segments) {
-    hn::StoreU(hn::TableLookupLanes(hn::Load(lanes, from.from + first), places), lanes, to.from + end);
-    hn::StoreU(hn::TableLookupLanes(hn::Load(lanes, from.to + first), places), lanes, to.to + end);
+    hn::StoreU(hn::TableLookupLanes(rays.from, places), lanes, to.from + end);
+    hn::StoreU(hn::TableLookupLanes(rays.to, places), lanes, to.to + end);
   }
-  to.size = end + hn::CountTrue(lanes, kept);
+  to.size = end + hn::CountTrue(lanes, rays.kept);
+}
+
+#undef DETP_APPEND_TWO
+#if HWY_TARGET <= HWY_AVX3
+#define DETP_APPEND_TWO 1
+#else
+#define DETP_APPEND_TWO 0
+#endif
+
+#if DETP_APPEND_TWO
+
+/// The same for two vectors, at `first` and behind it: mostly at most a vector's lanes are kept, so each array is permuted and stored
+/// once. (Storing takes most of the time of culling.)
+template <bool segments>
+HWY_INLINE void append(const RayList& list, std::size_t first, const TestedRays<segments>& rays,
+                       const TestedRays<segments>& more, RayList& to) {
+  const FloatLanes lanes;
+  const WordLanes words;
+  const std::size_t count = hn::CountTrue(lanes, rays.kept);
+  const std::size_t more_count = hn::CountTrue(lanes, more.kept);
+  const auto numbers = hn::Iota(words, 0);
+  const auto of_more = hn::Compress(hn::Iota(words, padding), hn::RebindMask(words, more.kept));
+  const auto chosen = _mm512_mask_expand_epi32(hn::Compress(numbers, hn::RebindMask(words, rays.kept)).raw,
+                                               static_cast<__mmask16>(0xffffU << count), of_more.raw);
+  const auto store = [&](Floats x, Floats y, float* array) {
+    _mm512_storeu_ps(array + to.size, _mm512_permutex2var_ps(x.raw, chosen, y.raw));
+  };
+  store(rays.a, more.a, to.a);
+  store(rays.b, more.b, to.b);
+  store(rays.p, more.p, to.p);
+  store(rays.q, more.q, to.q);
+  const auto ids = hn::Load(words, list.id + first).raw;
+  const auto more_ids = hn::Load(words, list.id + first + padding).raw;
+  _mm512_storeu_si512(to.id + to.size, _mm512_permutex2var_epi32(ids, chosen, more_ids));
+  if constexpr (segments) {
+    store(rays.from, more.from, to.from);
+    store(rays.to, more.to, to.to);
+  }
+  if (HWY_UNLIKELY(count + more_count > padding)) {
+    const std::size_t end = to.size + count;
+    const auto store_more = [&](Floats y, float* array) {
+      _mm512_storeu_ps(array + end, _mm512_permutexvar_ps(of_more.raw, y.raw));
+    };
+    store_more(more.a, to.a);
+    store_more(more.b, to.b);
+    store_more(more.p, to.p);
+    store_more(more.q, to.q);
+    _mm512_storeu_si512(to.id + end, _mm512_permutexvar_epi32(of_more.raw, more_ids));
+    if constexpr (segments) {
+      store_more(more.from, to.from);
+      store_more(more.to, to.to);
+    }
+  }
+  to.size += count + more_count;
+}
+
+#endif
+
+/// Lists the rays of `rays` that `kept(rays)` has a lane for.
+template <bool segments, class Kept>
+HWY_INLINE void cull(const RayList& rays, RayList& inside, const Kept& kept) {
+  const FloatLanes lanes;
+  // Local copies, so that the compiler can keep them in registers: a vector store might otherwise alias the lists.
+  const RayList around = rays;
+  RayList to = inside;
+  to.size = 0;
+  const auto test = [&](std::size_t i) HWY_ATTR {
+    TestedRays<segments> tested;
+    tested.a = hn::Load(lanes, around.a + i);
+    tested.b = hn::Load(lanes, around.b + i);
+    tested.p = hn::Load(lanes, around.p + i);
+    tested.q = hn::Load(lanes, around.q + i);
+    if constexpr (segments) {
+      tested.from = hn::Load(lanes, around.from + i);
+      tested.to = hn::Load(lanes, around.to + i);
+    }
+    tested.kept = kept(tested);
+    if (HWY_UNLIKELY(i + hn::Lanes(lanes) > around.size)) tested.kept = hn::And(tested.kept, in_list(i, around.size));
+    return tested;
+  };
+  std::size_t i = 0;
+#if DETP_APPEND_TWO
+  for (; i + hn::Lanes(lanes) < around.size; i += 2 * hn::Lanes(lanes))
+    append<segments>(around, i, test(i), test(i + hn::Lanes(lanes)), to);
+#endif
+  for (; i < around.size; i += hn::Lanes(lanes)) append<segments>(around, i, test(i), to);
+  inside.size = to.size;
 }
 
 /// Lists all rays that cross the box grown by `margin`, and some that miss it.
@@ -88,27 +181,14 @@ HWY_INLINE void cull_box(const RayList& rays, const TreeNode& box, float margin,
   const Floats hz = hn::Set(lanes, box.half[z] + margin);
   [[maybe_unused]] const Floats low = hn::Set(lanes, box.centre[z] - (box.half[z] + margin));
   [[maybe_unused]] const Floats high = hn::Set(lanes, box.centre[z] + (box.half[z] + margin));
-  // Local copies, so that the compiler can keep them in registers: a vector store might otherwise alias the lists.
-  const RayList around = rays;
-  RayList kept_rays = inside;
-  kept_rays.size = 0;
-  for (std::size_t i = 0; i < around.size; i += hn::Lanes(lanes)) {
-    const Floats a = hn::Load(lanes, around.a + i);
-    const Floats b = hn::Load(lanes, around.b + i);
-    const Floats p = hn::Load(lanes, around.p + i);
-    const Floats q = hn::Load(lanes, around.q + i);
-    const Floats off_x = hn::Abs(hn::Sub(hn::MulAdd(a, cz, p), cx));
-    const Floats off_y = hn::Abs(hn::Sub(hn::MulAdd(b, cz, q), cy));
-    Mask kept =
-        hn::And(hn::Le(hn::NegMulAdd(hn::Abs(a), hz, off_x), hx), hn::Le(hn::NegMulAdd(hn::Abs(b), hz, off_y), hy));
-    if constexpr (segments) {
-      kept = hn::And(
-          kept, hn::And(hn::Le(hn::Load(lanes, around.from + i), high), hn::Ge(hn::Load(lanes, around.to + i), low)));
-    }
-    if (HWY_UNLIKELY(i + hn::Lanes(lanes) > around.size)) kept = hn::And(kept, in_list(i, around.size));
-    append<segments>(around, i, a, b, p, q, kept, kept_rays);
-  }
-  inside.size = kept_rays.size;
+  cull<segments>(rays, inside, [&](const TestedRays<segments>& of) HWY_ATTR {
+    const Floats off_x = hn::Abs(hn::Sub(hn::MulAdd(of.a, cz, of.p), cx));
+    const Floats off_y = hn::Abs(hn::Sub(hn::MulAdd(of.b, cz, of.q), cy));
+    Mask kept = hn::And(hn::Le(hn::NegMulAdd(hn::Abs(of.a), hz, off_x), hx),
+                        hn::Le(hn::NegMulAdd(hn::Abs(of.b), hz, off_y), hy));
+    if constexpr (segments) kept = hn::And(kept, hn::And(hn::Le(of.from, high), hn::Ge(of.to, low)));
+    return kept;
+  });
 }
 
 /// Lists the rays that may come within the sphere, whose radius already includes Frame::margin.
@@ -127,29 +207,16 @@ HWY_INLINE void cull_sphere(const RayList& rays, const FloatSphere& sphere, RayL
   const Floats square = hn::Set(lanes, sphere.radius * sphere.radius);
   [[maybe_unused]] const Floats low = hn::Set(lanes, sphere.centre[axes[2]] - sphere.radius);
   [[maybe_unused]] const Floats high = hn::Set(lanes, sphere.centre[axes[2]] + sphere.radius);
-  // Local copies, so that the compiler can keep them in registers: a vector store might otherwise alias the lists.
-  const RayList around = rays;
-  RayList kept_rays = inside;
-  kept_rays.size = 0;
-  for (std::size_t i = 0; i < around.size; i += hn::Lanes(lanes)) {
-    const Floats a = hn::Load(lanes, around.a + i);
-    const Floats b = hn::Load(lanes, around.b + i);
-    const Floats p = hn::Load(lanes, around.p + i);
-    const Floats q = hn::Load(lanes, around.q + i);
-    const Floats P = hn::Sub(hn::MulAdd(a, cz, p), cx);
-    const Floats Q = hn::Sub(hn::MulAdd(b, cz, q), cy);
-    const Floats turn = hn::MulSub(P, b, hn::Mul(Q, a));
+  cull<segments>(rays, inside, [&](const TestedRays<segments>& of) HWY_ATTR {
+    const Floats P = hn::Sub(hn::MulAdd(of.a, cz, of.p), cx);
+    const Floats Q = hn::Sub(hn::MulAdd(of.b, cz, of.q), cy);
+    const Floats turn = hn::MulSub(P, of.b, hn::Mul(Q, of.a));
     const Floats moment = hn::MulAdd(P, P, hn::MulAdd(Q, Q, hn::Mul(turn, turn)));
-    const Floats stretch = hn::MulAdd(a, a, hn::MulAdd(b, b, hn::Set(lanes, 1.0F)));
+    const Floats stretch = hn::MulAdd(of.a, of.a, hn::MulAdd(of.b, of.b, hn::Set(lanes, 1.0F)));
     Mask kept = hn::Le(moment, hn::Mul(square, stretch));
-    if constexpr (segments) {
-      kept = hn::And(
-          kept, hn::And(hn::Le(hn::Load(lanes, around.from + i), high), hn::Ge(hn::Load(lanes, around.to + i), low)));
-    }
-    if (HWY_UNLIKELY(i + hn::Lanes(lanes) > around.size)) kept = hn::And(kept, in_list(i, around.size));
-    append<segments>(around, i, a, b, p, q, kept, kept_rays);
-  }
-  inside.size = kept_rays.size;
+    if constexpr (segments) kept = hn::And(kept, hn::And(hn::Le(of.from, high), hn::Ge(of.to, low)));
+    return kept;
+  });
 }
 
 /// The lanes that certainly hit a disc, and the lanes that possibly do.

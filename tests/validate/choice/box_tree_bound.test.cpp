@@ -108,18 +108,18 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("leaves are 24 (discs/rays)^0.3, a power of two from 8 to 512") {
-    CHECK(usual_shape(1000, 1000) == BoxTreeParameters{8, 32});
-    CHECK(usual_shape(1000, 16'000) == BoxTreeParameters{8, 64});
-    CHECK(usual_shape(4000, 1000) == BoxTreeParameters{8, 16});
-    CHECK(usual_shape(1, 1e18) == BoxTreeParameters{8, 512});
-    CHECK(usual_shape(1e18, 1) == BoxTreeParameters{8, 8});
+    CHECK(usual_shape(1000, 1000) == BoxTreeParameters{4, 32});
+    CHECK(usual_shape(1000, 16'000) == BoxTreeParameters{4, 64});
+    CHECK(usual_shape(4000, 1000) == BoxTreeParameters{4, 16});
+    CHECK(usual_shape(1, 1e18) == BoxTreeParameters{4, 512});
+    CHECK(usual_shape(1e18, 1) == BoxTreeParameters{4, 8});
   }
 
   TEST_CASE("leaves are smaller where tests are slower than placing, within limits") {
-    CHECK(usual_shape(1000, 1000, 8) == BoxTreeParameters{8, 8});
-    CHECK(usual_shape(1000, 16'000, 32) == BoxTreeParameters{8, 32});
-    CHECK(usual_shape(1000, 16'000, 1024) == BoxTreeParameters{8, 128});
-    CHECK(usual_shape(1000, 16'000, std::numeric_limits<double>::infinity()) == BoxTreeParameters{8, 128});
+    CHECK(usual_shape(1000, 1000, 8) == BoxTreeParameters{4, 8});
+    CHECK(usual_shape(1000, 16'000, 32) == BoxTreeParameters{4, 32});
+    CHECK(usual_shape(1000, 16'000, 1024) == BoxTreeParameters{4, 128});
+    CHECK(usual_shape(1000, 16'000, std::numeric_limits<double>::infinity()) == BoxTreeParameters{4, 128});
     CHECK(usual_shape(1000, 16'000, 0) == usual_shape(1000, 16'000, 1));
   }
 
