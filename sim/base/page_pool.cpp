@@ -1,9 +1,6 @@
 #include "page_pool.hpp"
 
-#include <sys/mman.h>
-
 #include <algorithm>
-#include <cstdint>
 #include <iterator>
 #include <map>
 #include <mutex>
@@ -23,31 +20,15 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::size_t pool_alignment = 64;
-constexpr std::size_t small_page = 4096;
-constexpr std::size_t large_page = std::size_t{1} << 21;
-constexpr std::size_t least_block = std::size_t{1} << 15;     ///< smaller blocks come from the heap
-constexpr std::size_t mapped_at_once = std::size_t{1} << 26;  ///< addresses; pages are not touched
+constexpr std::size_t pool_alignment = 64;                 // bytes in a cache line
+constexpr std::size_t least_block = std::size_t{1} << 15;  // smaller blocks come from the heap
+constexpr std::size_t least_taken = std::size_t{1} << 20;  // from the heap at a time
 
 #ifdef DETP_POOL_ON_HEAP
 constexpr bool on_heap = true;  // so that the sanitizer sees the ends of arrays
 #else
 constexpr bool on_heap = false;
 #endif
-
-std::size_t rounded_up(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
-
-/// Addresses for `bytes`, a multiple of large_page; null if there are none.
-char* mapped(std::size_t bytes) {
-  void* const start =
-      mmap(nullptr, bytes + large_page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (start == MAP_FAILED) return nullptr;
-  const std::size_t before = (large_page - reinterpret_cast<std::uintptr_t>(start) % large_page) % large_page;
-  char* const aligned = static_cast<char*>(start) + before;
-  if (before > 0) munmap(start, before);
-  munmap(aligned + bytes, large_page - before);
-  return aligned;
-}
 
 class PagePool final : public std::pmr::memory_resource {
  public:
@@ -62,44 +43,49 @@ class PagePool final : public std::pmr::memory_resource {
   }
 
  private:
-  /// Free memory. Of its pages at most `touched` bytes may have been touched.
+  /// Free memory, part of what was taken from the heap at once.
   struct Range {
     std::size_t bytes;
-    std::size_t touched;
+    char* taken;
   };
   using Ranges = std::map<char*, Range>;
 
   static bool small(std::size_t bytes) { return on_heap || bytes < least_block; }
+  static std::size_t rounded_up(std::size_t bytes) {
+    return (bytes + pool_alignment - 1) / pool_alignment * pool_alignment;
+  }
 
   void* do_allocate(std::size_t bytes, std::size_t alignment) override {
     if (alignment > pool_alignment) throw std::bad_alloc();
     if (small(bytes)) return ::operator new (bytes, std::align_val_t{pool_alignment});
-    const std::size_t size = rounded_up(bytes, pool_alignment);
+    const std::size_t size = rounded_up(bytes);
     const std::lock_guard lock(mutex_);
     auto fitting = by_size_.lower_bound({size, nullptr});
     if (fitting == by_size_.end()) {
-      map(size);
+      take(size);
       fitting = by_size_.lower_bound({size, nullptr});
     }
     char* const start = fitting->second;
-    const Range range = taken(free_.find(start));
-    const std::size_t touched = std::min(range.touched, size);
-    if (range.bytes > size) insert(start + size, {range.bytes - size, range.touched - touched});
+    const Range range = removed(free_.find(start));
+    if (range.bytes > size) insert(start + size, {range.bytes - size, range.taken});
+    taken_of_.emplace(start, range.taken);
     return start;
   }
 
   void do_deallocate(void* block, std::size_t bytes, std::size_t) override {
     if (small(bytes)) return ::operator delete (block, std::align_val_t{pool_alignment});
-    const std::size_t size = rounded_up(bytes, pool_alignment);
     const std::lock_guard lock(mutex_);
     char* start = static_cast<char*>(block);
-    Range range{size, size};
-    const auto after = free_.find(start + size);
-    if (after != free_.end()) add(range, taken(after));
+    const auto own = taken_of_.find(start);
+    Range range{rounded_up(bytes), own->second};
+    taken_of_.erase(own);
+    const auto after = free_.find(start + range.bytes);
+    if (after != free_.end() && after->second.taken == range.taken) range.bytes += removed(after).bytes;
     auto before = free_.lower_bound(start);
-    if (before != free_.begin() && (--before)->first + before->second.bytes == start) {
+    if (before != free_.begin() && (--before)->second.taken == range.taken &&
+        before->first + before->second.bytes == start) {
       start = before->first;
-      add(range, taken(before));
+      range.bytes += removed(before).bytes;
     }
     insert(start, range);
     keep(memory_limit_is_set() ? 0 : most_kept_bytes);
@@ -107,51 +93,46 @@ class PagePool final : public std::pmr::memory_resource {
 
   [[nodiscard]] bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
 
-  static void add(Range& range, const Range& more) {
-    range.bytes += more.bytes;
-    range.touched += more.touched;
-  }
-
   void insert(char* start, const Range& range) {
     free_.emplace(start, range);
     by_size_.emplace(range.bytes, start);
-    kept_ += range.touched;
+    kept_ += range.bytes;
   }
 
-  Range taken(Ranges::iterator free) {
+  Range removed(Ranges::iterator free) {
     const Range range = free->second;
     by_size_.erase({range.bytes, free->first});
     free_.erase(free);
-    kept_ -= range.touched;
+    kept_ -= range.bytes;
     return range;
   }
 
-  void map(std::size_t bytes) {
-    std::size_t size = std::max(rounded_up(bytes, large_page), mapped_at_once);
-    char* start = mapped(size);
-    if (start == nullptr) start = mapped(size = rounded_up(bytes, large_page));
-    if (start == nullptr) throw std::bad_alloc();
-    insert(start, {size, 0});
+  void take(std::size_t bytes) {
+    const std::size_t size = std::max(bytes, least_taken);
+    auto* const start = static_cast<char*>(::operator new (size, std::align_val_t{pool_alignment}));
+    size_of_.emplace(start, size);
+    insert(start, {size, start});
   }
 
-  /// Returns the largest free ranges to the system, until at most `most` bytes are kept.
+  /// Returns to the heap what is free as a whole, the largest first, until at most `most` bytes are kept.
   void keep(std::size_t most) {
-    for (auto range = by_size_.rbegin(); kept_ > most && range != by_size_.rend(); ++range) {
-      Range& free = free_.find(range->second)->second;
-      if (free.touched == 0) continue;
-      char* const start = range->second;
-      const std::size_t before = (small_page - reinterpret_cast<std::uintptr_t>(start) % small_page) % small_page;
-      if (before + small_page > free.bytes) continue;
-      madvise(start + before, (free.bytes - before) / small_page * small_page, MADV_DONTNEED);
-      kept_ -= free.touched;
-      free.touched = 0;
+    for (auto next = by_size_.end(); kept_ > most && next != by_size_.begin();) {
+      const auto [bytes, start] = *--next;
+      const auto taken = size_of_.find(start);
+      if (taken == size_of_.end() || taken->second != bytes) continue;
+      next = std::next(next);
+      (void)removed(free_.find(start));
+      size_of_.erase(taken);
+      ::operator delete (start, std::align_val_t{pool_alignment});
     }
   }
 
   std::mutex mutex_;
   Ranges free_;
   std::set<std::pair<std::size_t, char*>> by_size_;  ///< of free_
-  std::size_t kept_ = 0;                             ///< sum of `touched`
+  std::map<char*, std::size_t> size_of_;             ///< what was taken from the heap
+  std::map<char*, char*> taken_of_;                  ///< for each block in use
+  std::size_t kept_ = 0;                             ///< bytes in free_
 };
 
 /// Never destroyed, because other static objects may have arrays in it.

@@ -10,18 +10,18 @@
 /// Memory for large arrays, whose pages are kept from one search to the next.
 namespace detp::sim {
 
-/// Memory shared by the whole process, for arrays that live about as long as a search or an index. Large blocks are cut from a few
-/// mappings, as densely as possible, and what is freed is kept for later blocks: up to most_kept_bytes; nothing if a memory
-/// limit is set. A page that is touched for the first time takes about as long as testing 5000 rays against a box; such pages were a
-/// fifth to a half of the time of a first search. Small blocks come from the heap.
+/// Memory shared by the whole process, for arrays that live about as long as a search or an index. What is freed is kept for later
+/// blocks: up to most_kept_bytes; nothing if a memory limit is set. A page that is touched for the first time takes about as long as
+/// testing 5000 rays against a box; such pages were a fifth to a half of the time of a search that takes its memory from the
+/// heap. Small blocks come from there.
 [[nodiscard]] std::pmr::memory_resource& page_pool();
 
 inline constexpr std::size_t most_kept_bytes = std::size_t{1} << 27;
 
-/// Freed bytes that the pool keeps; at least the bytes of the pages that it has touched and does not use.
+/// Freed bytes that the pool keeps.
 [[nodiscard]] std::size_t kept_bytes();
 
-/// Returns to the system what the pool keeps.
+/// Returns to the heap what the pool keeps, except next to blocks in use.
 void release_kept_pages();
 
 /// An allocator from the pool, whose elements keep whatever is in memory until they are set.

@@ -19,7 +19,7 @@ struct NestedLists {
   double first = 0;  ///< rays in the first list inside the outermost, as a share of the outermost list
   double last = 0;   ///< rays in the innermost list, as a share of the outermost list
 
-  [[nodiscard]] stream::ListCapacity capacity() const { return {first, first + rays - last}; }
+  [[nodiscard]] stream::ListCapacity capacity() const { return {first, rays}; }
 };
 
 /// The lists of a sphere cache.

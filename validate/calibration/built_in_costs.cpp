@@ -125,8 +125,8 @@ CostTable costs_of_sums(CostTable costs) {
 
 double sums_seconds(const SumsOfSearch& sums, const CostTable& costs) {
   const double errors = sums.errors ? (sums.numbered ? 9e-9 : 0.9e-9) * sums.hits : 0;
-  const double of_band = 1.45e-9 * sums.rays + (sums.errors ? 7.2e-9 : 0.68e-9) * sums.hits +
-                         (sums.errors ? 73.8e-9 : 35.7e-9) * sums.discs * sums.blocks;
+  const double of_band = 1.5e-9 * sums.rays + (sums.errors ? 1.87e-9 : 1.01e-9) * sums.hits +
+                         (sums.errors ? 66.7e-9 : 6.05e-9) * sums.discs * sums.blocks;
   return (errors + (sums.bands - 1) * of_band) * over_usual(costs);
 }
 

@@ -40,7 +40,7 @@ struct SumsOfSearch {
 /// 82 and 133 ms with errors).
 ///
 /// Each further band: for each ray its largest power is found, for each hit a power is added, for each disc and block of photons a sum, with
-/// standard errors likewise squares. Fitted to four workloads on the faces of a cube (validate/tools/band_times.cpp; AMD EPYC, Zen 4, AVX-512);
+/// standard errors likewise squares. Fitted to four workloads on the faces of a cube (validate/tools/band_times.cpp; AMD EPYC, Zen 5, AVX-512);
 /// the README of this folder has the errors.
 [[nodiscard]] double sums_seconds(const SumsOfSearch& sums, const CostTable& costs);
 

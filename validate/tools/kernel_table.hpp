@@ -39,7 +39,8 @@ void run_rows();
 /// The way in which the kept lanes of a vector are moved together before they are stored.
 enum class Packing {
   compress,  ///< one Compress for each array
-  permute    ///< one Compress of the lane numbers, then a permutation of each array
+  permute,   ///< one Compress of the lane numbers, then a permutation of each array
+  pairs      ///< the same for two vectors at once, whose lanes mostly fit one (AVX-512; elsewhere as permute)
 };
 
 /// Seconds to load, pack and store (unaligned) one vector of each of `arrays` arrays of `size` floats. Each lane is

@@ -85,11 +85,44 @@ std::size_t pack(const float* from, float* to, std::size_t size, std::size_t str
   return end;
 }
 
+/// The same, two vectors at a time.
+template <int arrays>
+std::size_t pack_pairs(const float* from, float* to, std::size_t size, std::size_t stride, const std::uint8_t* bits) {
+#if HWY_TARGET <= HWY_AVX3
+  const Lanes lanes;
+  const hn::RebindToUnsigned<Lanes> words;
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < size; i += 32) {
+    const auto kept = hn::LoadMaskBits(words, bits + i / 2);
+    const auto more = hn::LoadMaskBits(words, bits + i / 2 + 8);
+    const std::size_t count = hn::CountTrue(words, kept);
+    const auto of_more = hn::Compress(hn::Iota(words, 16), more);
+    const auto places = _mm512_mask_expand_epi32(hn::Compress(hn::Iota(words, 0), kept).raw,
+                                                 static_cast<__mmask16>(0xffffU << count), of_more.raw);
+    const std::size_t all = count + hn::CountTrue(words, more);
+    for (std::size_t k = 0; k < arrays; ++k) {
+      const auto x = hn::Load(lanes, from + k * stride + i);
+      const auto y = hn::Load(lanes, from + k * stride + i + 16);
+      _mm512_storeu_ps(to + k * stride + end, _mm512_permutex2var_ps(x.raw, places, y.raw));
+      if (HWY_UNLIKELY(all > 16))
+        hn::StoreU(hn::TableLookupLanes(y, hn::IndicesFromVec(lanes, hn::And(of_more, hn::Set(words, 15)))), lanes,
+                   to + k * stride + end + count);
+    }
+    end += all;
+  }
+  return end;
+#else
+  return pack<Packing::permute, arrays>(from, to, size, stride, bits);
+#endif
+}
+
 std::size_t Pack(Packing packing, int arrays, const float* from, float* to, std::size_t size, std::size_t stride,
                  const std::uint8_t* bits) {
   if (packing == Packing::compress)
     return arrays == 5 ? pack<Packing::compress, 5>(from, to, size, stride, bits)
                        : pack<Packing::compress, 7>(from, to, size, stride, bits);
+  if (packing == Packing::pairs)
+    return arrays == 5 ? pack_pairs<5>(from, to, size, stride, bits) : pack_pairs<7>(from, to, size, stride, bits);
   return arrays == 5 ? pack<Packing::permute, 5>(from, to, size, stride, bits)
                      : pack<Packing::permute, 7>(from, to, size, stride, bits);
 }
@@ -166,7 +199,7 @@ double store_bandwidth(std::size_t bytes) {
 }
 
 double packing_time(Packing packing, int arrays, std::size_t size, double share) {
-  const std::size_t vectors = (size + vector_length() - 1) / vector_length();
+  const std::size_t vectors = 2 * ((size + 2 * vector_length() - 1) / (2 * vector_length()));  // whole pairs
   const std::size_t stride = (vectors * vector_length() + gap + 15) / 16 * 16;
   const auto from = ones(stride * static_cast<std::size_t>(arrays));
   const auto to = ones(stride * static_cast<std::size_t>(arrays));
@@ -177,7 +210,8 @@ double packing_time(Packing packing, int arrays, std::size_t size, double share)
       bits[lane / vector_length() * 8 + lane % vector_length() / 8] |= static_cast<std::uint8_t>(1U << lane % 8);
   volatile std::size_t kept = 0;
   const double seconds = least_time(1 + floats_moved / 8 / size, [&] {
-    kept = HWY_DYNAMIC_DISPATCH(Pack)(packing, arrays, from.get(), to.get(), size, stride, bits.data());
+    kept = HWY_DYNAMIC_DISPATCH(Pack)(packing, arrays, from.get(), to.get(), vectors * vector_length(), stride,
+                                      bits.data());
   });
   return seconds / static_cast<double>(vectors);
 }

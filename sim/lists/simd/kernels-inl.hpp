@@ -96,30 +96,30 @@ HWY_INLINE void append(const RayList& list, std::size_t first, const TestedRays<
   const auto of_more = hn::Compress(hn::Iota(words, padding), hn::RebindMask(words, more.kept));
   const auto chosen = _mm512_mask_expand_epi32(hn::Compress(numbers, hn::RebindMask(words, rays.kept)).raw,
                                                static_cast<__mmask16>(0xffffU << count), of_more.raw);
-  const auto store = [&](Floats x, Floats y, float* array) {
-    _mm512_storeu_ps(array + to.size, _mm512_permutex2var_ps(x.raw, chosen, y.raw));
-  };
+  const auto store = [&](Floats x, Floats y, float* array)
+                         HWY_ATTR { _mm512_storeu_ps(array + to.size, _mm512_permutex2var_ps(x.raw, chosen, y.raw)); };
   store(rays.a, more.a, to.a);
   store(rays.b, more.b, to.b);
   store(rays.p, more.p, to.p);
   store(rays.q, more.q, to.q);
-  const auto ids = hn::Load(words, list.id + first).raw;
-  const auto more_ids = hn::Load(words, list.id + first + padding).raw;
-  _mm512_storeu_si512(to.id + to.size, _mm512_permutex2var_epi32(ids, chosen, more_ids));
+  const auto more_ids = hn::Load(words, list.id + first + padding);
+  _mm512_storeu_si512(to.id + to.size,
+                      _mm512_permutex2var_epi32(hn::Load(words, list.id + first).raw, chosen, more_ids.raw));
   if constexpr (segments) {
     store(rays.from, more.from, to.from);
     store(rays.to, more.to, to.to);
   }
   if (HWY_UNLIKELY(count + more_count > padding)) {
     const std::size_t end = to.size + count;
-    const auto store_more = [&](Floats y, float* array) {
-      _mm512_storeu_ps(array + end, _mm512_permutexvar_ps(of_more.raw, y.raw));
+    const auto places = hn::And(of_more, hn::Set(words, padding - 1));
+    const auto store_more = [&](Floats y, float* array) HWY_ATTR {
+      hn::StoreU(hn::TableLookupLanes(y, hn::IndicesFromVec(lanes, places)), lanes, array + end);
     };
     store_more(more.a, to.a);
     store_more(more.b, to.b);
     store_more(more.p, to.p);
     store_more(more.q, to.q);
-    _mm512_storeu_si512(to.id + end, _mm512_permutexvar_epi32(of_more.raw, more_ids));
+    hn::StoreU(hn::TableLookupLanes(more_ids, hn::IndicesFromVec(words, places)), words, to.id + end);
     if constexpr (segments) {
       store_more(more.from, to.from);
       store_more(more.to, to.to);

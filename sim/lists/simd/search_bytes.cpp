@@ -14,24 +14,19 @@ double rays_together(const SearchSize& size) {
   return static_cast<double>(std::min(rays_in_block(size.discs), size.rays));
 }
 
-/// Bytes of the block that is searched and of the block that is loaded meanwhile, both with their rays' ends.
-double block_bytes(const SearchSize& size) {
-  const double bytes_a_ray = 7 * sizeof(float) + (size.powers ? sizeof(double) : 0);
-  return bytes_a_ray * static_cast<double>(std::min(2 * rays_in_block(size.discs), size.rays));
-}
-
-/// Floats of a ray in a list that is culled from a block's lists.
+/// Floats of a ray in a list.
 double floats_per_ray(const SearchSize& size) { return size.segments ? 7 : 5; }
 
-/// Bytes of the nested lists of one thread. Lists that begin with fewer rays are smaller and closer together: they use
-/// pages that other lists left untouched. Fewer rays are in the last block, and in a node that another thread divided.
-double list_bytes(const SearchSize& size, const ListCapacity& lists, bool divided = false) {
-  const double rays = rays_together(size);
-  const std::size_t block = rays_in_block(size.discs);
-  const auto last = static_cast<double>(size.rays > block ? size.rays % block : 0);
-  const double fewer = std::max(last, divided ? lists.first * rays : 0);
-  const double unfilled = std::max(0.0, 1 - lists.first) * rays;
-  return sizeof(float) * floats_per_ray(size) * (rays * lists.all + std::min(unfilled, (1 + lists.all) * fewer));
+/// Bytes of the block that is searched and, on several threads, of the block that is loaded meanwhile.
+double block_bytes(const SearchSize& size) {
+  const double bytes_a_ray = floats_per_ray(size) * sizeof(float) + (size.powers ? sizeof(double) : 0);
+  const std::size_t blocks = thread_count(size.threads) > 1 ? 2 : 1;
+  return bytes_a_ray * static_cast<double>(std::min(blocks * rays_in_block(size.discs), size.rays));
+}
+
+/// Bytes of the nested lists of one thread.
+double list_bytes(const SearchSize& size, const ListCapacity& lists) {
+  return sizeof(float) * floats_per_ray(size) * rays_together(size) * lists.all;
 }
 
 /// The larger of two peaks: during the search (with the blocks of rays) and after it (with the outcome, no blocks).
@@ -69,7 +64,7 @@ double walk_bytes(const SearchSize& size, const ListCapacity& lists) {
 
 double boxes_bytes(const SearchSize& size, const TreeSize& tree) {
   const bool divided = thread_count(size.threads) > 1 && rays_together(size) >= static_cast<double>(rays_to_divide);
-  const double lists = (divided ? thread_count(size.threads) : 1) * list_bytes(size, tree.lists, divided);
+  const double lists = (divided ? thread_count(size.threads) : 1) * list_bytes(size, tree.lists);
   return std::max(building_bytes(size.discs, tree.binary_nodes, tree.nodes),
                   searching_bytes(size, sizeof(TreeNode) * tree.nodes, lists));
 }

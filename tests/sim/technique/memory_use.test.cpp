@@ -131,6 +131,7 @@ Measured measure(const Case& each) {
   PathRays rays(given.rays);
   rays.further = {given.further, given.further.size() / given.rays.size()};
   const Problem problem = make_problem(rays, given.discs);
+  set_memory_limit(1e15);  // what is freed is returned at once (page_pool.hpp)
   malloc_trim(0);
   reset_peak_memory();
   const double before = status("VmRSS");
