@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t pool_alignment = 64;                 // bytes in a cache line
 constexpr std::size_t least_block = std::size_t{1} << 15;  // smaller blocks come from the heap
-constexpr std::size_t least_taken = std::size_t{1} << 20;  // from the heap at a time
+constexpr std::size_t least_taken = std::size_t{1} << 18;  // from the heap at a time
 
 #ifdef DETP_POOL_ON_HEAP
 constexpr bool on_heap = true;  // so that the sanitizer sees the ends of arrays
