@@ -40,7 +40,7 @@ inline constexpr std::size_t discs_in_chunk = 512;
 
 /// The simd engine searches the children of a tree's node as separate tasks if the node's list holds at least this many
 /// rays.
-inline constexpr std::size_t rays_to_divide = std::size_t{1} << 12;
+inline constexpr std::size_t rays_to_divide = std::size_t{1} << 10;
 
 /// Number of blocks of rays_in_block rays for `rays` rays.
 [[nodiscard]] inline double blocks_of(double rays, double discs) {

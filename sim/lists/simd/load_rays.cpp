@@ -200,7 +200,7 @@ HWY_INLINE void load_some(const Ray* rays, std::size_t count, std::uint32_t numb
 }
 
 template <bool ends>
-RayTraits load(std::span<const Ray> rays, const Frame& given, RayLists& filled) {
+RayTraits load(std::span<const Ray> rays, const Frame& given, RayLists& filled, std::uint32_t first_number) {
   // Local copies, so that the compiler can keep them in registers: a vector store might otherwise alias data that is
   // passed by reference.
   const Frame frame = given;
@@ -214,20 +214,22 @@ RayTraits load(std::span<const Ray> rays, const Frame& given, RayLists& filled) 
     // Prefetches rays that come from memory. (Prefetching did not help for rays in the third-level cache.)
     for (std::size_t j = i + prefetch_distance; j < HWY_MIN(i + prefetch_distance + step, rays.size()); ++j)
       hwy::Prefetch(&rays[j]);
-    load_some<ends>(&rays[i], step, static_cast<std::uint32_t>(i), frame, power, lists, properties);
+    load_some<ends>(&rays[i], step, first_number + static_cast<std::uint32_t>(i), frame, power, lists, properties);
   }
   if (i < rays.size()) {
     Ray last[8];
     std::copy(rays.begin() + static_cast<std::ptrdiff_t>(i), rays.end(), last);
-    load_some<ends>(last, rays.size() - i, static_cast<std::uint32_t>(i), frame, power, lists, properties);
+    load_some<ends>(last, rays.size() - i, first_number + static_cast<std::uint32_t>(i), frame, power, lists,
+                    properties);
   }
   filled = lists;
   const bool same = hn::AllFalse(lanes, properties.other_power);
   return {!hn::AllFalse(lanes, properties.bounded), same ? std::optional(rays.front().power) : std::nullopt};
 }
 
-RayTraits LoadRays(std::span<const Ray> rays, const Frame& frame, RayLists& lists) {
-  return lists[0].from != nullptr ? load<true>(rays, frame, lists) : load<false>(rays, frame, lists);
+RayTraits LoadRays(std::span<const Ray> rays, const Frame& frame, RayLists& lists, std::uint32_t first_number) {
+  return lists[0].from != nullptr ? load<true>(rays, frame, lists, first_number)
+                                  : load<false>(rays, frame, lists, first_number);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -239,13 +241,9 @@ namespace detp::sim::stream {
 
 HWY_EXPORT(LoadRays);
 
-RayTraits load_rays(std::span<const Ray> rays, const Frame& frame, RayLists& lists) {
-  const RayTraits traits = HWY_DYNAMIC_DISPATCH(LoadRays)(rays, frame, lists);
-  for (const RayList& list : lists) {
-    for (float* const array : {list.a, list.b, list.p, list.q, list.from, list.to})
-      if (array != nullptr) std::fill_n(array + list.size, padding, 0.0F);
-    std::fill_n(list.id + list.size, padding, 0U);
-  }
+RayTraits load_rays(std::span<const Ray> rays, const Frame& frame, RayLists& lists, std::uint32_t first_number) {
+  const RayTraits traits = HWY_DYNAMIC_DISPATCH(LoadRays)(rays, frame, lists, first_number);
+  for (RayList& list : lists) clear_padding(list);
   return traits;
 }
 

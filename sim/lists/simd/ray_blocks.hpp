@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -17,11 +18,11 @@ struct RayTraits {
   std::optional<double> power;  ///< the power of each ray, if all powers are equal
 };
 
-/// Converts rays to the frame's coordinates and sorts them by class; their numbers start at 0. Leaves out rays that
+/// Converts rays to the frame's coordinates and sorts them by class; their numbers start at `first_number`. Leaves out rays that
 /// stay far from S₀. There must be at least one ray, and at most 2³¹. Each list must be empty and have room for all
 /// rays, and for their ends unless all are lines. Fills the padding behind each list with zeros: the kernels compute with it, and whatever is in
 /// reused memory may be subnormal numbers, with which a test of few rays takes ten times as long.
-RayTraits load_rays(std::span<const Ray> rays, const Frame& frame, RayLists& lists);
+RayTraits load_rays(std::span<const Ray> rays, const Frame& frame, RayLists& lists, std::uint32_t first_number = 0);
 
 /// A block of rays, loaded.
 class Block {
@@ -30,8 +31,8 @@ class Block {
   explicit Block(std::pmr::memory_resource* memory, bool keep_powers)
       : arena_(memory), powers_(memory), further_(memory), keep_powers_(keep_powers) {}
 
-  /// Loads up to `size` rays from number `first` on; none if there is no such ray.
-  void load(const Problem& problem, const Frame& frame, std::size_t first, std::size_t size);
+  /// Loads up to `size` rays from number `first` on, `pieces` parts of them at the same time; none if there is no such ray.
+  void load(const Problem& problem, const Frame& frame, std::size_t first, std::size_t size, std::size_t pieces = 1);
 
   [[nodiscard]] std::size_t first() const { return first_; }
   [[nodiscard]] std::size_t size() const { return size_; }  ///< including the rays that load_rays leaves out
@@ -55,6 +56,12 @@ class Block {
   std::size_t capacity_ = 0;  ///< of each list; not reduced for a smaller block, so that no other pages are touched
 };
 
+/// In how many pieces so many threads load the first block, of so many rays.
+[[nodiscard]] inline std::size_t pieces_of_block(std::size_t rays, int threads) {
+  constexpr std::size_t least_piece = std::size_t{1} << 13;
+  return std::clamp<std::size_t>(rays / least_piece, 1, static_cast<std::size_t>(threads));
+}
+
 /// Whether powers of single rays are needed; if not, it is enough to count hits.
 [[nodiscard]] bool needs_powers(const Problem& problem, const RunOptions& options);
 
@@ -73,8 +80,9 @@ void for_each_block(const Problem& problem, const Frame& frame, const RunOptions
   const bool keep_powers = needs_powers(problem, options);
   Block now(options.memory, keep_powers);
   Block next(options.memory, keep_powers);
-  const bool alone = thread_count(options.threads) == 1;
-  now.load(problem, frame, 0, size_at(0));
+  const int threads = thread_count(options.threads);
+  const bool alone = threads == 1;
+  now.load(problem, frame, 0, size_at(0), pieces_of_block(size_at(0), threads));
   while (now.first() < problem.rays().size()) {
     if (options.progress)
       options.progress(static_cast<double>(now.first()) / static_cast<double>(problem.rays().size()));

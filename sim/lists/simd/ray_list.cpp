@@ -6,6 +6,12 @@
 
 namespace detp::sim::stream {
 
+void clear_padding(RayList& list) {
+  for (float* const array : {list.a, list.b, list.p, list.q, list.from, list.to})
+    if (array != nullptr) std::fill_n(array + list.size, padding, 0.0F);
+  std::fill_n(list.id + list.size, padding, 0U);
+}
+
 void ListArena::next_chunk(std::size_t most, bool segments) {
   constexpr std::size_t least = std::size_t{1} << 11;
   used_ = 0;

@@ -35,6 +35,9 @@ inline constexpr std::uint32_t falling = 1U << 31;
   return {count, from(list.a), from(list.b), from(list.p), from(list.q), from(list.id), from(list.from), from(list.to)};
 }
 
+/// Sets what the kernels read behind a list's end to zero.
+void clear_padding(RayList& list);
+
 /// Expected sizes of nested lists, as shares of the number of rays. A list has room for all rays of the list around it.
 struct ListCapacity {
   double first = 0;  ///< rays in the outermost culled list

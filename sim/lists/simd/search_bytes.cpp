@@ -17,11 +17,16 @@ double rays_together(const SearchSize& size) {
 /// Floats of a ray in a list.
 double floats_per_ray(const SearchSize& size) { return size.segments ? 7 : 5; }
 
-/// Bytes of the block that is searched and, on several threads, of the block that is loaded meanwhile.
+/// Bytes of the block that is searched and, on several threads, of the block that is loaded meanwhile. The pieces of the first are moved together.
 double block_bytes(const SearchSize& size) {
-  const double bytes_a_ray = floats_per_ray(size) * sizeof(float) + (size.powers ? sizeof(double) : 0);
-  const std::size_t blocks = thread_count(size.threads) > 1 ? 2 : 1;
-  return bytes_a_ray * static_cast<double>(std::min(blocks * rays_in_block(size.discs), size.rays));
+  const double list_bytes_a_ray = floats_per_ray(size) * sizeof(float);
+  const double bytes_a_ray = list_bytes_a_ray + (size.powers ? sizeof(double) : 0);
+  const int threads = thread_count(size.threads);
+  const std::size_t block = rays_in_block(size.discs);
+  const std::size_t first = std::min(block, size.rays);
+  const double moved = 1 - 1 / static_cast<double>(pieces_of_block(first, threads));
+  return bytes_a_ray * static_cast<double>(std::min((threads > 1 ? 2 : 1) * block, size.rays)) +
+         moved * list_bytes_a_ray * static_cast<double>(first);
 }
 
 /// Bytes of the nested lists of one thread.
