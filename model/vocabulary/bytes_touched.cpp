@@ -15,18 +15,18 @@ constexpr double results = 16;  // hits and irradiance
 constexpr double sums = 32;
 constexpr double listed_ray = 72;  // in double
 
-/// Lists of rays in floats, block after block; the next block is loaded meanwhile.
+/// Lists of rays in floats, block after block. (Several threads load the next block meanwhile, in other memory.)
 double bytes_of_floats(const Counts<double>& counts, double discs, Technique technique) {
-  constexpr double loaded_ray = 28;
   constexpr double hits = 12;
   constexpr double sorting = 48;     // by whole codes
   constexpr double curve_place = 8;  // by coarse ones
   constexpr double made_node = 72;   // in the binary tree, and in the tree made of it
   const double block = ray_blocks(counts.loaded, discs, Engine::simd).size;
-  const double in_list = technique == Technique::brute_force ? 0 : counts.segments > 0 ? 28 : 20;
+  const double loaded_ray = counts.segments > 0 ? 28 : 20;
+  const double in_list = technique == Technique::brute_force ? 0 : loaded_ray;
   const double in_order = counts.sorted > 0 ? technique == Technique::box_tree ? curve_place : sorting : 0;
   return discs * (float_disc + order + hits + results + in_order) + made_node * counts.made +
-         loaded_ray * std::min(2 * block, counts.loaded) + in_list * std::min(block, counts.loaded);
+         (loaded_ray + in_list) * std::min(block, counts.loaded);
 }
 
 double bytes_of_plain_lists(const Counts<double>& counts, double discs, Technique technique) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 
+#include "detp/sim/base/page_pool.hpp"
 #include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -26,6 +27,7 @@ double bytes_of_faults() {
 /// Bytes that a run touches for the first time, after all that is free was given back. Code and small data are ready.
 double touched(const sim::Problem& problem, const Candidate& candidate, Counts<double>& counts) {
   static_cast<void>(sim::run(problem, candidate));
+  sim::release_kept_pages();
   malloc_trim(0);
   const double before = bytes_of_faults();
   const sim::Outcome outcome = sim::run(problem, candidate);

@@ -73,8 +73,8 @@ struct TimedCandidate {
 /// Parameters from too coarse to too fine; `place` varies them from workload to workload.
 [[nodiscard]] std::vector<Candidate> timed_candidates(const TimedWorkload& workload, std::size_t place);
 
-/// Measures UnitCosts::touch and sets it for all techniques: seconds for touching a byte of memory for the first time, in large pages where
-/// the system offers them, as searches do. The shortest of some tries; a few milliseconds in all. Where there is no memory for it, the costs
+/// Measures UnitCosts::touch and sets it for all techniques: seconds for touching a byte of memory for the first time, in large
+/// pages where the system offers them. (Memory that a process used before costs nothing, new small pages up to 0.35 ns a byte.) The shortest of some tries; a few milliseconds in all. Where there is no memory for it, the costs
 /// stay.
 void set_touch_cost(Calibration& calibration);
 

@@ -179,7 +179,8 @@ class SampleChoice {
 
   /// Returns true if brute force, or the usual shape for a short search, is the choice without a pilot.
   bool decide_without_pilot() {
-    const double work = work_of(*question_.ray_count, discs_);
+    const double rays = *question_.ray_count;
+    const double work = work_of(rays, std::min(discs_, 4 * rays));  // of the search, which a pilot makes faster
     const bool is_short = question_.purpose == Purpose::one_search && work < least_work;
     if (is_short && rigor_ == Rigor::pilot) {  // one ray stands for all: nothing is culled
       sample_ = {.sample = question_.rays.first(1), .all = *question_.ray_count};

@@ -1,6 +1,6 @@
 // Makes notebooks-data/limits.csv: times of whole searches beside the least that this machine needs for them.
 //
-//   cmake --build build --target limits && build/limits [AVX3|AVX2|SSE4] > notebooks-data/limits.csv
+//   cmake --build build --target limits && (build/limits AVX3; build/limits AVX2; build/limits SSE4) > notebooks-data/limits.csv
 //
 // Our choice on one thread, from discs and rays in memory to irradiance in memory: the first run of the process's workload, and the median of
 // seven more, whose pages are kept. The limit is a sum over phases that follow one another, each at a rate that is measured at the start
@@ -11,7 +11,7 @@
 //     pack    packing and storing the vectors that keep a ray, the fastest way, from the second-level cache. That each lane is kept with the same
 //             probability is assumed, which counts too many vectors
 //
-// "load" is the time of bringing all rays into lists, measured alone. Takes about two minutes.
+// "load" is the time of bringing all rays into lists, measured alone. Takes about a minute a set.
 
 #include <fmt/format.h>
 
@@ -22,6 +22,8 @@
 #include <string>
 #include <vector>
 
+#include "detp/sim/base/memory.hpp"
+#include "detp/sim/base/page_pool.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/lists/simd/instruction_sets.hpp"
@@ -122,6 +124,8 @@ void write_row(const Searched& workload, double flops) {
   constexpr double load_flops = 60;
   const auto discs = sim::uniform_discs(workload.body, 1, static_cast<std::size_t>(workload.discs), workload.radius, 1);
   const std::vector<sim::Ray> rays = rays_of(workload, discs);
+  sim::release_kept_pages();
+  sim::return_freed_memory();
   const Run first = run(rays, discs, false);
   std::vector<Run> runs;
   for (int i = 0; i < 7; ++i) {
@@ -144,13 +148,17 @@ void write_row(const Searched& workload, double flops) {
   for (const Packing packing : {Packing::permute, Packing::pairs})
     of_vector = std::min(of_vector, packing_time(packing, workload.segments ? 7 : 5, 4096, share));
   const double packing = static_cast<double>(counted.outcome.vectors.cull) * any * of_vector;
-  fmt::print(
-      "{},{},{:.0f},{:.0f},{},{},{},{:.0f},{:.4g},{:.4g},{:.4g},{:.3e},{:.3e},{:.3e},{:.3e},{:.3e},{:.3e},{:.3e},{:.3e}"
-      ",{:.3e},{:.3e}\n",
-      instructions(), workload.body == sim::Body::cube ? "cube" : "faces of a cube", workload.rays, workload.discs,
-      workload.radius, workload.segments ? "segments" : "lines", "\"" + describe(counted.candidate) + "\"", bytes,
-      culls, tests, operations, moving, operations / flops, packing, first.phases.total(), median.total(), median.check,
-      median.choose, median.order + median.build, loading(rays, discs), median.search);
+  const double limit = moving + operations / flops + packing;
+  constexpr double milli = 1e3;
+  fmt::print("{},{},{:.0f},{:.0f},{},{},\"{}\",{:.4g},{:.4g},{:.4g},{:.4g}", instructions(),
+             workload.body == sim::Body::cube ? "cube" : "faces", workload.rays, workload.discs, workload.radius,
+             workload.segments ? "segments" : "lines", describe(counted.candidate), 1e-6 * bytes, culls / workload.rays,
+             tests / workload.rays, static_cast<double>(counts.hits) / workload.rays);
+  for (const double seconds :
+       {moving, operations / flops, packing, limit, first.phases.total(), median.total(), median.check, median.choose,
+        median.order + median.build, loading(rays, discs), median.search})
+    fmt::print(",{:.4g}", milli * seconds);
+  fmt::print(",{:.3f}\n", limit / median.total());
   std::fflush(stdout);
 }
 
@@ -160,9 +168,9 @@ int main(int argc, char** argv) {
   std::optional<sim::stream::OnlyInstructionSet> only;
   if (argc > 1) only.emplace(argv[1]);
   fmt::print(
-      "set,discs_in,rays,discs,disc_radius,field,parameters,bytes,cull_tests,disc_tests,flops,move_seconds,test_"
-      "seconds,pack_seconds,"
-      "first_seconds,seconds,check_seconds,choose_seconds,build_seconds,load_seconds,search_seconds\n");
+      "set,discs_in,rays,discs,disc_radius,field,parameters,megabytes,culls_a_ray,tests_a_ray,hits_a_ray,move_ms,test_"
+      "ms,pack_ms,limit_ms,"
+      "first_ms,all_ms,check_ms,choose_ms,build_ms,load_ms,search_ms,share\n");
   const double flops = peak_flops();
   for (const Searched& workload : workloads) write_row(workload, flops);
 }

@@ -39,9 +39,8 @@ HWY_NOINLINE inline Mask decide_again(const BlockSearch& block, const Disc& disc
 /// The lanes of `there` that hit the disc at that place.
 template <bool segments, bool front_facing, int k>
 HWY_INLINE Mask test(const BlockSearch& block, const RayVector<segments>& rays, Mask there, std::uint32_t place,
-                     Worker& worker) {
+                     const SpreadDisc<k>& disc, Worker& worker) {
   const FloatLanes lanes;
-  const SpreadDisc<k> disc(block.tree.discs[place]);
   const auto decision = decide<segments, front_facing>(rays, disc);
   const Mask unsure = hn::And(decision.unsure, there);
   const Mask sure = hn::And(decision.sure, there);
@@ -53,12 +52,16 @@ HWY_INLINE Mask test(const BlockSearch& block, const RayVector<segments>& rays, 
 template <bool segments, int k>
 HWY_INLINE void count_hits(const BlockSearch& block, const TreeNode& leaf, const RayList& rays, Worker& worker) {
   const FloatLanes lanes;
-  for (std::size_t i = 0; i < rays.size; i += hn::Lanes(lanes)) {
-    const RayVector<segments> vector(rays, i);
-    const Mask there = in_list(i, rays.size);
-    for (std::uint32_t place = leaf.first; place < leaf.first + leaf.count; ++place)
-      block.hits[place][k] += static_cast<std::uint32_t>(
-          hn::CountTrue(lanes, test<segments, false, k>(block, vector, there, place, worker)));
+  if (rays.size == 0) return;
+  for (std::uint32_t place = leaf.first; place < leaf.first + leaf.count; ++place) {
+    const SpreadDisc<k> disc(block.tree.discs[place]);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < rays.size; i += hn::Lanes(lanes)) {
+      const RayVector<segments> vector(rays, i);
+      count +=
+          hn::CountTrue(lanes, test<segments, false, k>(block, vector, in_list(i, rays.size), place, disc, worker));
+    }
+    block.hits[place][k] += static_cast<std::uint32_t>(count);
   }
 }
 
@@ -76,9 +79,10 @@ HWY_INLINE FoundRays find_hits(const BlockSearch& block, std::uint32_t place, co
   const FloatLanes lanes;
   const WordLanes words;
   const std::uint32_t* const first = found;
+  const SpreadDisc<k> disc(block.tree.discs[place]);
   for (std::size_t i = 0; i < rays.size; i += hn::Lanes(lanes)) {
     const RayVector<segments> vector(rays, i);
-    const Mask hit = test<segments, front_facing, k>(block, vector, in_list(i, rays.size), place, worker);
+    const Mask hit = test<segments, front_facing, k>(block, vector, in_list(i, rays.size), place, disc, worker);
     const auto kept = hn::IndicesFromVec(words, kept_lanes(lanes, hit));
     const auto ids = hn::AndNot(hn::Set(words, falling), hn::Load(words, vector.id));
     hn::StoreU(hn::TableLookupLanes(ids, kept), words, found);
