@@ -126,8 +126,9 @@ double least_box_tree_seconds(const sim::Problem& problem, std::span<const sim::
   return prices(least_box_tree_counts(problem, rays, size.rays), Technique::box_tree).time.total();
 }
 
-/// Below this work, a pilot takes more than it brings: 6 to 12 % of the run at 4e6, where the usual shape takes 6 % more time than the best.
-constexpr double least_work = 5e6;
+/// Below this work, a pilot takes more than it brings: 12 % of a run at 3.3e6, 6 % at 4.1e6, where the usual shape takes some 6 % more time than
+/// the best.
+constexpr double least_work = 4e6;
 
 /// At least five: with four, the spread between them says so little of its own accuracy that the stated error of counts is 1.3
 /// times as large.

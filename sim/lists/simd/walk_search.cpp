@@ -116,8 +116,8 @@ void search_walk(const SearchInput& input, const MakeWalk& make_walk, const List
   const Problem& problem = input.problem;
   const Frame& frame = input.frame;
   const DiscTree& discs = input.tree;
-  const std::size_t rays = list_rays(size_of(problem, options), room);
-  const auto worker = [&] { return Worker(options.memory, options.stop, rays); };
+  const std::size_t expected = list_rays(size_of(problem, options), room);
+  const auto worker = [&] { return Worker(options.memory, options.stop, expected); };
   std::array workers{worker(), worker(), worker()};
   using Events = std::pmr::vector<SphereCounts>;
   std::array events{Events(options.memory), Events(options.memory), Events(options.memory)};

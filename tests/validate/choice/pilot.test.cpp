@@ -91,7 +91,7 @@ TEST_SUITE("identity") {
     CHECK(sim::run(small.problem, *index).hits == sim::run(small.problem, tree).hits);
     CHECK(validate::choose({.problem = &small.problem}, validate::built_in_unit_costs()).best().source ==
           Source::sample);
-    const Example large(5000, 0.002, 1'250'000);
+    const Example large(5000, 0.002, 1'000'000);
     const auto piloted = validate::choose({.problem = &large.problem, .purpose = validate::Purpose::one_search},
                                           validate::built_in_unit_costs());
     CHECK(piloted.best().source == Source::sample);

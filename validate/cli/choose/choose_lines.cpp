@@ -63,7 +63,7 @@ std::string regret_line(const validate::Analysis& analysis) {
   const double error = analysis.regret_error;
   return fmt::format("regret    {}{} %: {}, the predicted choice, takes {:.3g} s{}", percent_digits(regret),
                      error > 0 ? " ± " + percent_digits(error) : "", title(predicted.candidate), *predicted.seconds,
-                     regret <= error || regret < 0.01 ? ": as fast, within the noise of the timed runs" : "");
+                     regret <= error || regret < 0.01 ? ": as fast, within the noise" : "");
 }
 
 }  // namespace
