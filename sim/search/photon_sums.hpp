@@ -67,12 +67,12 @@ struct PhotonSums {
 struct PhotonBlocks {
   int log2_size = 18;
 
-  /// As many photons as a block of rays has rays, for so many discs: smaller blocks would cut blocks of rays. At least a
-  /// sixteenth of the discs, because the end of a block costs some time for each disc, and memory grows with the logarithm of the
-  /// number of blocks.
+  /// At least as many photons as a block of rays has rays, for so many discs: smaller blocks would cut blocks of rays. At least a sixteenth of the
+  /// discs, because memory grows with the logarithm of the number of blocks. Sixteen for each disc, up to 2²⁰, because the end of a block
+  /// costs some 20 ns for each disc; not more, because ranks share whole blocks.
   [[nodiscard]] static PhotonBlocks for_discs(std::size_t discs) {
-    constexpr std::size_t least = std::size_t{1} << 20;
-    return {std::countr_zero(std::bit_ceil(std::max({least, rays_in_block(discs), discs / 16})))};
+    constexpr std::size_t many = std::size_t{1} << 20;
+    return {std::countr_zero(std::bit_ceil(std::max({rays_in_block(discs), std::min(16 * discs, many), discs / 16})))};
   }
 
   [[nodiscard]] std::uint64_t of(std::uint64_t photon) const { return photon >> log2_size; }

@@ -82,12 +82,12 @@ TEST_SUITE("identity") {
             doctest::test_suite("long")) {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20'000, 0.02, 3);
     REQUIRE(discs.size() > 1U << 14);  // a thread has at least so many
-    const std::uint64_t count = 300'000;
+    const std::uint64_t count = 1'100'000;
     REQUIRE(count > 2 * PhotonBlocks::for_discs(discs.size()).first(1));
     const std::vector<Ray> rays = support::uneven_lines(discs, count);
     const std::vector<Ray> equal = LineField(enclosing_sphere(discs), 4).lines(0, count);
     for (const auto& some : {rays, equal}) {
-      StreamOptions options{.run = {.engine = Engine::plain}, .block = 100'000};
+      StreamOptions options{.run = {.engine = Engine::plain}, .block = 300'000};
       options.run.standard_error = true;
       const Candidate by_ray{Technique::octree, OctreeParameters{4}};
       const Outcome plain = run_streamed(discs, RaysInMemory(some), by_ray, options).outcome;
