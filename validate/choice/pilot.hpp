@@ -44,8 +44,8 @@ inline constexpr double usual_placing = 128;
 /// Source     fitted to exact counts, priced with calibrated unit costs, of fan-outs 4 to 32 with leaves 4 to 512, on
 ///            lines and photon paths, 10² to 10⁵ rays, radii of 0.25 to 4 % of the scene: @courtyard and @tree. The
 ///            unit costs are those of one machine with AVX-512, AVX2, SSE4 and scalar code (p/u = 133, 73, 27 and 11).
-/// Accuracy   measured time over that of the fastest of 35 shapes (fan-outs 2 to 8, leaves of 4 to 256), on 21 workloads, on some of which the
-///            fan-out was set (Zen 5, AVX-512): 6 % more in the geometric mean, at most 17 %; with fan-out 8 7.5 and 28 %.
+/// Accuracy   measured time over that of the fastest of 35 shapes (fan-outs 2 to 8, leaves of 4 to 256), on the 21 workloads by which the
+///            fan-out was set (Zen 5, AVX-512): 6 % more in the geometric mean, at most 14 %; with fan-out 8 7.6 and 28 %.
 /// Throws     std::invalid_argument unless both numbers are from 1 to 1e18, and if `placing` is NaN.
 [[nodiscard]] BoxTreeParameters usual_shape(double rays, double discs, double placing = usual_placing);
 

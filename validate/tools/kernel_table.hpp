@@ -7,6 +7,13 @@
 /// A table of kernel times beside the machine's limits.
 namespace detp::benchmarks {
 
+// Floating-point operations of one test in kernels-inl.hpp, of lines and of segments. A multiply-add counts as two operations, a comparison,
+// minimum or maximum as one. Changes of sign do not count. load_rays works on doubles, whose operations count as two each.
+inline constexpr double box_flops[] = {12, 14};
+inline constexpr double sphere_flops[] = {20, 22};
+inline constexpr double disc_flops[] = {33, 42};
+inline constexpr double load_flops = 2 * 30;
+
 /// The work of one call of a kernel.
 struct Work {
   double tests;             ///< ray-shape tests

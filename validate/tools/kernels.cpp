@@ -40,14 +40,6 @@ struct Level {
 };
 constexpr Level levels[] = {{"L1", 512}, {"L2", 12'288}, {"L3", 262'144}, {"memory", 4'194'304}};
 
-// Floating-point operations of one test in kernels-inl.hpp. A multiply-add counts as two operations, a comparison,
-// minimum or maximum as one. Changes of sign do not count. load_rays works on doubles, whose operations count as two
-// each.
-constexpr double box_flops[] = {12, 14};
-constexpr double sphere_flops[] = {20, 22};
-constexpr double disc_flops[] = {33, 42};
-constexpr double load_flops = 2 * 30;
-
 double tested_bytes(bool segments) { return segments ? 6 * sizeof(float) : 4 * sizeof(float); }
 int arrays(bool segments) { return segments ? 7 : 5; }
 
@@ -191,8 +183,9 @@ double kept_vectors(const Cull& cull, const Shapes& tried, const stream::RayList
 }
 
 double best_packing(int count, std::size_t size, double share) {
-  return std::min(packing_time(Packing::compress, count, size, share),
-                  packing_time(Packing::permute, count, size, share));
+  return std::min({packing_time(Packing::compress, count, size, share),
+                   packing_time(Packing::permute, count, size, share),
+                   packing_time(Packing::pairs, count, size, share)});
 }
 
 void add_cull(const std::string& name, bool segments, const Level& level, double share, double flops, Scene& scene,
@@ -232,10 +225,8 @@ void add_culls(Scene& scene, bool segments, const Level& level) {
                                            .first = 0,
                                            .count = 0,
                                            .leaf = 0};
-               stream::RayLists lists{list, {}, {}};
-               stream::RayLists kept{inside, {}, {}};
-               cull_node(scene.search(segments), node, lists, kept, worker);
-               inside.size = kept[0].size;
+               const stream::ArenaScope scope(worker.lists);
+               inside.size = cull_node(scene.search(segments), node, {list, {}, {}}, worker)[0].size;
              });
     add_cull("sphere", segments, level, share, sphere_flops[segments], scene,
              [&scene, segments](const std::array<float, 3>& centre, float size, const stream::RayList& list,

@@ -2,8 +2,8 @@
 //
 //   cmake --build build --target limits && (build/limits AVX3; build/limits AVX2; build/limits SSE4) > notebooks-data/limits.csv
 //
-// Our choice on one thread, from discs and rays in memory to irradiance in memory: the first run of the process's workload, and the median of
-// seven more, whose pages are kept. The limit is a sum over phases that follow one another, each at a rate that is measured at the start
+// Our choice on one thread, from discs and rays in memory to irradiance in memory: the first run, for which kept
+// memory was given back, and the median of seven more. The limit is a sum over phases that follow one another, each at a rate that is measured at the start
 // (machine_peak.cpp):
 //
 //     move    bytes of rays and discs, read once, and of hits and irradiance, written once, at the bandwidth of loads of so many bytes
@@ -119,9 +119,6 @@ double loading(std::span<const sim::Ray> rays, std::span<const sim::Disc> discs)
 }
 
 void write_row(const Searched& workload, double flops) {
-  constexpr double box_flops[] = {12, 14};
-  constexpr double disc_flops[] = {33, 42};
-  constexpr double load_flops = 60;
   const auto discs = sim::uniform_discs(workload.body, 1, static_cast<std::size_t>(workload.discs), workload.radius, 1);
   const std::vector<sim::Ray> rays = rays_of(workload, discs);
   sim::release_kept_pages();

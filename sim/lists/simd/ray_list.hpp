@@ -64,11 +64,6 @@ class ListArena {
     return list;
   }
 
-  /// For each class, a list with room for all rays that `lists` has of that class.
-  [[nodiscard]] RayLists allocate_like(const RayLists& lists, bool segments) {
-    return {allocate(lists[0].size, segments), allocate(lists[1].size, segments), allocate(lists[2].size, segments)};
-  }
-
   /// A list with room for `most` rays, until the next call of a member function. To be filled, then kept.
   [[nodiscard]] RayList next(std::size_t most, bool segments) {
     if (chunk_ == chunks_.size() || used_ + most + padding > chunks_[chunk_].rays ||
