@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "detp/sim/base/page_pool.hpp"
+
 namespace detp::sim {
 namespace {
 
@@ -17,13 +19,13 @@ constexpr double one_sided = 1.6448536269514722;  ///< of a normal distribution,
 }  // namespace
 
 void resize_results(std::size_t discs, bool errors, Outcome& outcome, std::size_t bands) {
-  outcome.hits.resize(discs);
+  resize_touched(outcome.hits, discs);
   outcome.further.resize(bands - 1);
   for (std::size_t band = 0; band < bands; ++band) {
     BandResults& results = outcome.band(band);
-    results.irradiance.resize(discs);
-    results.standard_error.resize(errors ? discs : 0);
-    results.upper_bound.resize(errors ? discs : 0);
+    resize_touched(results.irradiance, discs);
+    resize_touched(results.standard_error, errors ? discs : 0);
+    resize_touched(results.upper_bound, errors ? discs : 0);
   }
 }
 

@@ -60,10 +60,14 @@ inline constexpr std::size_t tests_a_unit = 16;
 
 /// The data of one thread.
 struct Worker {
-  /// `rays` is the expected number of rays in the thread's lists.
+  /// There is room for `rays` rays in the thread's lists; the first `touched` will be used.
   explicit Worker(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::stop_token stop = {},
-                  std::size_t rays = 0)
-      : lists(memory, rays), pairs(memory), check(std::move(stop), "searching"), skipped(memory), found(memory) {}
+                  std::size_t rays = 0, std::size_t touched = 0)
+      : lists(memory, rays, touched),
+        pairs(memory),
+        check(std::move(stop), "searching"),
+        skipped(memory),
+        found(memory) {}
 
   ListArena lists;
   FoundPairs pairs;

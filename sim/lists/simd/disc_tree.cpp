@@ -6,16 +6,17 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <stdexcept>
 
 #include "binary_tree.hpp"
+#include "detp/sim/base/page_pool.hpp"
 #include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/run_memory.hpp"
+#include "search.hpp"
 
 namespace detp::sim::stream {
 namespace {
@@ -30,13 +31,17 @@ class Builder {
         stop_(stop),
         widening_(stop, doing),
         tree_(discs.tree),
+        parameters_(parameters),
         fan_out_(static_cast<std::size_t>(parameters.fan_out)),
         leaf_(static_cast<std::uint32_t>(parameters.leaf)) {}
 
   void build() {
     const auto discs = static_cast<std::uint32_t>(tree_.discs.size());
     // Reserves space for the largest possible number of nodes. Pages are only touched as far as nodes are written.
-    binary_ = std::make_unique_for_overwrite<BinaryNode[]>(2 * std::size_t{discs});
+    const std::size_t most = 2 * std::size_t{discs};
+    const UntouchedBytes block = allocate_untouched(page_pool(), most * sizeof(BinaryNode));
+    binary_ = {static_cast<BinaryNode*>(block.start), {&page_pool(), most}};
+    fresh_ = block.fresh;
     split_in_parallel(0, discs, 0);
     tree_.binary_nodes = written_;
     tree_.nodes.reserve(written_);
@@ -53,6 +58,9 @@ class Builder {
     check.after(2 * std::min(count, least));
     check.now();
     if (count < least) {
+      if (fresh_)
+        touch_pages(&binary_[number],
+                    static_cast<std::size_t>(expected_tree(count, parameters_).binary_nodes) * sizeof(BinaryNode));
       written_ += split_run(discs_, leaf_, first, count, binary_.get(), number) - number;
       require_memory_for("the tree of boxes", building_bytes(tree_.discs.size(), static_cast<double>(written_), 0),
                          problem_);
@@ -114,9 +122,11 @@ class Builder {
   const std::stop_token& stop_;
   StopCheck widening_;
   DiscTree& tree_;
+  const BoxTreeParameters& parameters_;
   std::size_t fan_out_;
   std::uint32_t leaf_;
-  std::unique_ptr<BinaryNode[]> binary_;
+  Untouched<BinaryNode> binary_;
+  bool fresh_ = false;  ///< some pages of binary_ are new
   std::atomic<std::size_t> written_ = 0;
 };
 

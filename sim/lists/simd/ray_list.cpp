@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "detp/sim/base/memory.hpp"
+#include "detp/sim/base/page_pool.hpp"
 
 namespace detp::sim::stream {
 
@@ -27,8 +28,13 @@ void ListArena::next_chunk(std::size_t most, bool segments) {
   bytes_ += static_cast<double>(floats) * sizeof(float);
   require_memory("a thread's lists of rays", bytes_);
   std::pmr::memory_resource* const memory = chunks_.get_allocator().resource();
-  void* const start = memory->allocate(floats * sizeof(float), alignment);
-  chunks_.push_back({{static_cast<float*>(start), Deallocate{memory, floats}}, stride, stride, segments});
+  const UntouchedBytes block = allocate_untouched(*memory, floats * sizeof(float));
+  auto* const start = static_cast<float*>(block.start);
+  chunks_.push_back({{start, {memory, floats}}, stride, stride, segments});
+  fresh_ |= block.fresh;
+  if (!block.fresh || chunk_ > 0) return;
+  for (std::size_t array = 0; array < floats; array += stride)
+    touch_pages(start + array, std::min(touched_, rays) * sizeof(float));
 }
 
 }  // namespace detp::sim::stream

@@ -3,10 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <memory_resource>
+#include <utility>
 #include <vector>
 
+#include "detp/sim/base/page_pool.hpp"
 #include "frame.hpp"
 
 /// Lists of rays as structures of arrays.
@@ -53,9 +54,11 @@ using RayLists = std::array<RayList, classes>;
 /// pages than they fill. Throws std::length_error before the memory budget would be exceeded.
 class ListArena {
  public:
-  /// `expected` is the number of rays expected in all lists; the first chunk has room for at least this many.
-  explicit ListArena(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::size_t expected = 0)
-      : expected_(expected), chunks_(memory) {}
+  /// `expected` is the number of rays expected in all lists; the first chunk has room for at least this many. New pages for the first `touched`
+  /// rays are touched at once.
+  explicit ListArena(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::size_t expected = 0,
+                     std::size_t touched = 0)
+      : expected_(expected), touched_(touched), chunks_(memory) {}
 
   /// A list with room for `capacity` rays.
   [[nodiscard]] RayList allocate(std::size_t capacity, bool segments) {
@@ -82,6 +85,9 @@ class ListArena {
   /// Keeps the list of the latest call of next(), as it is filled.
   void keep(const RayList& list) { used_ += rounded(list.size); }
 
+  /// Whether new pages came into the arena since the last call.
+  [[nodiscard]] bool has_fresh_pages() { return std::exchange(fresh_, false); }
+
   struct Mark {
     std::size_t chunk;
     std::size_t used;
@@ -98,25 +104,19 @@ class ListArena {
   [[nodiscard]] static std::size_t rounded(std::size_t rays) { return (rays + padding - 1) / padding * padding; }
   void next_chunk(std::size_t most, bool segments);
 
-  /// Returns floats to the memory resource from which they were allocated.
-  struct Deallocate {
-    std::pmr::memory_resource* memory;
-    std::size_t count;
-    void operator()(float* start) const { memory->deallocate(start, count * sizeof(float), alignment); }
-  };
-  static constexpr std::size_t alignment = 64;  ///< bytes in a cache line
-
   struct Chunk {
-    std::unique_ptr<float, Deallocate> start;
+    Untouched<float> start;
     std::size_t rays;    ///< in each array
     std::size_t stride;  ///< floats from array to array
     bool segments;
   };
   std::size_t expected_;
+  std::size_t touched_;
   std::pmr::vector<Chunk> chunks_;
   std::size_t chunk_ = 0;
   std::size_t used_ = 0;  ///< rays
   double bytes_ = 0;      ///< of all chunks
+  bool fresh_ = false;
 };
 
 /// At the end of a scope, frees the lists allocated in that scope.

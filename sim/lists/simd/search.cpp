@@ -45,7 +45,9 @@ void search_boxes(const SearchInput& input, const RunOptions& options, Outcome& 
   const TreeSize made{static_cast<double>(tree.binary_nodes), static_cast<double>(tree.nodes.size()), tree.lists};
   add_checked_bytes("the tree of boxes and its lists of rays", boxes_bytes(size, made), problem, outcome);
   on_threads(thread_count(options.threads), [&] {
-    Workers workers([&] { return Worker(options.memory, options.stop, list_rays(size, tree.lists)); });
+    Workers workers([&] {
+      return Worker(options.memory, options.stop, list_rays(size, tree.lists), least_list_rays(size, tree.lists));
+    });
     DiscResults results(problem, tree, options, outcome);
     for_each_block(problem, frame, options, [&](const Block& block) {
       divide(results.begin(frame, block), tree.nodes.front(), block.lists(), workers);

@@ -61,6 +61,10 @@ std::size_t list_rays(const SearchSize& size, const ListCapacity& lists) {
   return static_cast<std::size_t>(rays_together(size) * (1 + lists.all));
 }
 
+std::size_t least_list_rays(const SearchSize& size, const ListCapacity& lists) {
+  return static_cast<std::size_t>(rays_together(size) * lists.all / 2);
+}
+
 double all_bytes(const SearchSize& size) { return searching_bytes(size, 0, 0); }
 
 double walk_bytes(const SearchSize& size, const ListCapacity& lists) {
