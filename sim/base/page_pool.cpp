@@ -10,7 +10,6 @@
 #include <map>
 #include <mutex>
 #include <new>
-#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -192,11 +191,10 @@ class Regions {
   /// Gives pages of free ranges back to the system, the last first, until at most `most` bytes are kept.
   void keep(std::size_t most) {
     std::size_t all = kept();
-    for (Region& region : std::views::reverse(regions_)) {
-      if (all <= most) return;
-      const std::size_t others = all - region.kept();
-      region.keep(most - std::min(most, others));
-      all = others + region.kept();
+    for (auto region = regions_.rbegin(); region != regions_.rend() && all > most; ++region) {
+      const std::size_t others = all - region->kept();
+      region->keep(most - std::min(most, others));
+      all = others + region->kept();
     }
   }
 
