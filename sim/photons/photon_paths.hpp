@@ -45,7 +45,7 @@ enum class PhotonPowers {
 ///
 /// The result depends on the seed alone, not on the number of threads. Throws std::invalid_argument for a scene without
 /// light, triangles or box, for a light or material out of range, and if 1000 + 100 · `count` photons gave too few
-/// pieces. Throws std::runtime_error if Embree fails, and Stopped if a stop was requested.
+/// pieces. Throws Stopped if a stop was requested.
 [[nodiscard]] TracedPaths photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed,
                                        const std::stop_token& stop = {});
 /// The same, with a caster of the scene's mesh that was made before (photon_walk.hpp).

@@ -20,8 +20,7 @@ struct PhotonPieces : Paths {
 /// and its number alone. Several threads may use one tracer.
 class PhotonTracer {
  public:
-  /// Throws std::invalid_argument for a scene in which photon paths cannot be traced, std::runtime_error if Embree
-  /// fails, and Stopped if a stop was requested.
+  /// Throws std::invalid_argument for a scene in which photon paths cannot be traced, and Stopped if a stop was requested.
   PhotonTracer(const Scene& scene, std::uint64_t seed, const std::stop_token& stop = {});
   PhotonTracer(const Scene& scene, std::uint64_t seed, std::shared_ptr<const RayCaster> caster);
 

@@ -25,8 +25,7 @@ class PhotonWalk {
   /// Pieces end beyond surfaces by at least this share of the box's diagonal (photon_paths.hpp).
   static constexpr double gap_share = 1e-5;
 
-  /// Throws std::invalid_argument for a scene in which photons cannot be traced, std::runtime_error if Embree fails,
-  /// and Stopped if a stop was requested.
+  /// Throws std::invalid_argument for a scene in which photons cannot be traced, and Stopped if a stop was requested.
   PhotonWalk(const Scene& scene, std::uint64_t seed, const std::stop_token& stop = {});
   /// The same, with a caster of the scene's mesh that was made before.
   PhotonWalk(const Scene& scene, std::uint64_t seed, std::shared_ptr<const RayCaster> caster);

@@ -1,16 +1,16 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <stop_token>
 
 #include "detp/sim/base/function_ref.hpp"
 #include "detp/sim/scene/facet.hpp"
+#include "detp/sim/scene/item_tree.hpp"
 #include "detp/sim/scene/mesh.hpp"
 
 namespace detp::sim {
 
-/// Finds the first triangle that a ray meets. Embree finds candidates in single precision. Double precision decides
+/// Finds the first triangle that a ray meets. A tree of boxes finds candidates in single precision. Double precision decides
 /// which candidate is met, and where. So the point found lies on the surface within rounding, however small the
 /// triangle is, and a ray that starts on a surface does not meet it again.
 ///
@@ -19,11 +19,8 @@ namespace detp::sim {
 class RayCaster {
  public:
   /// Copies what it needs of the mesh. Triangles without area are never met. The box must hold every used vertex, and
-  /// must not be a single point. Throws std::runtime_error if Embree fails; Stopped if a stop was requested.
+  /// must not be a single point. Throws Stopped if a stop was requested.
   RayCaster(const Mesh& mesh, const Box& box, const std::stop_token& stop = {});
-  ~RayCaster();
-  RayCaster(const RayCaster&) = delete;
-  RayCaster& operator=(const RayCaster&) = delete;
 
   /// Conversion from scene coordinates to the caster's own, and back.
   [[nodiscard]] glm::dvec3 to_caster(const glm::dvec3& point) const { return (point - centre_) / scale_; }
@@ -50,10 +47,10 @@ class RayCaster {
                   FunctionRef<void(std::uint32_t triangle, const Facet& facet)> visit) const;
 
  private:
-  struct Embree;
   glm::dvec3 centre_;
   double scale_;
-  std::unique_ptr<Embree> embree_;
+  DistinctFacets distinct_;
+  std::optional<ItemTree> tree_;
 };
 
 }  // namespace detp::sim

@@ -30,7 +30,7 @@ struct FaceNames {
 /// triangle, and on those that are as near to 10⁻⁹ of the diagonal of the box around the mesh. Triangles farther away than 10⁻⁶ of
 /// it, and those whose normal is not within 60° of the sample's, do not count.
 ///
-/// Cost O(n log n). Throws std::runtime_error if Embree fails; Stopped if a stop was requested.
+/// Cost O(n log n). Throws Stopped if a stop was requested.
 [[nodiscard]] std::vector<std::size_t> samples_on(const Mesh& mesh, std::span<const Sample> samples,
                                                   const std::vector<bool>& chosen, const std::stop_token& stop = {});
 
