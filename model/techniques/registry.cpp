@@ -31,7 +31,7 @@ constexpr Listed closed_forms[]{
 
 const TechniqueModel& model_of(Technique technique) {
   static const auto models = [] {
-    std::array<TechniqueModel, all_techniques.size()> all{};
+    std::array<TechniqueModel, technique_records.size()> all{};
     for (const Listed& listed : closed_forms) all[static_cast<std::size_t>(listed.technique)] = listed.describe();
     return all;
   }();

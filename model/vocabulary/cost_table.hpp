@@ -10,11 +10,11 @@ namespace detp {
 /// The unit costs of each technique by one engine. The same operation may take a different time in each: the kernels, the
 /// sizes of the lists and the memory in use differ.
 struct CostTable {
-  std::array<UnitCosts, all_techniques.size()> of_technique{};  ///< in the order of Technique
-  std::array<ThreadCosts, all_techniques.size()> threads{};     ///< default: more threads are no faster
-  Engine engine = Engine::simd;                                 ///< whose costs these are
+  std::array<UnitCosts, technique_records.size()> of_technique{};  ///< in the order of Technique
+  std::array<ThreadCosts, technique_records.size()> threads{};     ///< default: more threads are no faster
+  Engine engine = Engine::simd;                                    ///< whose costs these are
   /// Standard error of seconds by these costs from right counts, relative to the seconds; 0: not known.
-  std::array<double, all_techniques.size()> relative_errors{};
+  std::array<double, technique_records.size()> relative_errors{};
 
   CostTable() = default;
   /// The same costs for all techniques, on one thread.

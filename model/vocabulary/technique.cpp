@@ -30,7 +30,7 @@ void require_in_range(const Parameter& parameter, const ParameterValue& value) {
 
 std::optional<Technique> technique_named(std::string_view wanted) {
   for (const TechniqueRecord& record : technique_records)
-    if (record.name == wanted) return record.technique;
+    if (record.built && record.name == wanted) return record.technique;
   return std::nullopt;
 }
 
@@ -72,6 +72,8 @@ std::string title(const Candidate& candidate) {
 
 void check(const Candidate& candidate) {
   const TechniqueRecord& record = record_of(candidate.technique);
+  if (!record.built)
+    throw std::invalid_argument(fmt::format("{} needs Embree, without which this detp was built", record.name));
   if (candidate.parameters.index() != record.defaults.index())
     throw std::invalid_argument(fmt::format("the parameters are not those of {}", record.name));
   for (const Parameter& parameter : record.parameters) require_in_range(parameter, parameter.get(candidate.parameters));

@@ -28,6 +28,12 @@ enum class Technique {
   photon_map
 };
 
+#ifdef DETP_WITHOUT_EMBREE
+inline constexpr bool has_embree = false;
+#else
+inline constexpr bool has_embree = true;
+#endif
+
 using Parameter = ParameterRecord<Parameters>;
 
 namespace records {
@@ -123,6 +129,7 @@ struct TechniqueRecord {
   bool exact = true;        ///< finds every hit
   bool ray_by_ray = false;  ///< a search goes ray by ray or disc by disc, not by lists of rays; its tests cost w
   bool simd = false;        ///< has a simd engine
+  bool built = true;        ///< this build of the library has it
   WorkDivision division = {};
 };
 
@@ -187,6 +194,7 @@ inline constexpr std::array technique_records{
                     .defaults = BvhParameters{},
                     .ray_by_ray = true,
                     .simd = true,
+                    .built = has_embree,
                     .division = {.plain = Division::rays, .simd = Division::rays, .preparing = true}},
     TechniqueRecord{.technique = Technique::ray_map,
                     .name = "ray-map",
@@ -205,29 +213,37 @@ inline constexpr std::array technique_records{
   return technique_records[static_cast<std::size_t>(technique)];
 }
 
-/// Every technique, in the order of the records. Those that find every hit, and so can be chosen: exact_techniques.
-inline constexpr auto all_techniques = [] {
-  std::array<Technique, technique_records.size()> all{};
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Technique>(i);
-  return all;
-}();
 static_assert([] {
-  for (const Technique technique : all_techniques)
-    if (record_of(technique).technique != technique) return false;
+  for (std::size_t i = 0; i < technique_records.size(); ++i)
+    if (technique_records[i].technique != static_cast<Technique>(i)) return false;
   return true;
 }());
 
-/// The techniques that find every hit, in the order of the records: the candidates of a choice.
-inline constexpr auto exact_techniques = [] {
-  constexpr auto count = std::ranges::count_if(technique_records, &TechniqueRecord::exact);
-  std::array<Technique, count> exact{};
-  std::ranges::copy_if(all_techniques, exact.begin(), [](Technique one) { return record_of(one).exact; });
-  return exact;
+namespace records {
+
+/// The techniques that this build has and that are `wanted`, in the order of the records.
+template <auto wanted>
+inline constexpr auto built = [] {
+  constexpr auto is_one = [](const TechniqueRecord& record) { return record.built && wanted(record); };
+  constexpr auto count = std::ranges::count_if(technique_records, is_one);
+  std::array<Technique, count> found{};
+  std::size_t place = 0;
+  for (const TechniqueRecord& record : technique_records)
+    if (is_one(record)) found[place++] = record.technique;
+  return found;
 }();
+
+}  // namespace records
+
+/// Every technique, in the order of the records. Those that find every hit, and so can be chosen: exact_techniques.
+inline constexpr auto all_techniques = records::built<[](const TechniqueRecord&) { return true; }>;
+
+/// The techniques that find every hit, in the order of the records: the candidates of a choice.
+inline constexpr auto exact_techniques = records::built<[](const TechniqueRecord& record) { return record.exact; }>;
 
 [[nodiscard]] constexpr std::string_view name(Technique technique) { return record_of(technique).name; }
 
-/// The technique with that name; nullopt if there is none.
+/// The technique with that name; nullopt if there is none, or if this build lacks it.
 [[nodiscard]] std::optional<Technique> technique_named(std::string_view name);
 
 struct Candidate {

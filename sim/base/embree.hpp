@@ -1,6 +1,10 @@
 #pragma once
 
+#if DETP_EMBREE == 4
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <memory>
 #include <stdexcept>
@@ -11,8 +15,93 @@
 #include "memory.hpp"
 #include "stopped.hpp"
 
-/// Owning handles for Embree's objects, and Embree's errors turned into exceptions.
+/// Owning handles for Embree's objects, Embree's errors turned into exceptions, and what differs between Embree 3 and 4.
 namespace detp::sim::embree {
+
+#if DETP_EMBREE == 4
+
+/// What callbacks get with each call: the first member of a caller's own data.
+using Context = RTCRayQueryContext;
+inline void init(Context& context) { rtcInitRayQueryContext(&context); }
+
+inline constexpr RTCSceneFlags filter_of_query = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+
+inline void occluded1(RTCScene scene, Context& context, RTCRay& ray) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded1(scene, &ray, &arguments);
+}
+
+#else
+
+using Context = RTCIntersectContext;
+inline void init(Context& context) { rtcInitIntersectContext(&context); }
+
+inline constexpr RTCSceneFlags filter_of_query = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+
+inline void occluded1(RTCScene scene, Context& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
+
+#endif
+
+/// What all queries of a thread share: each hit is passed to the filter, with the context.
+class FilteredQueries {
+ public:
+#if DETP_EMBREE == 4
+  FilteredQueries(Context& context, RTCFilterFunctionN filter, bool coherent) {
+    rtcInitIntersectArguments(&intersect_);
+    rtcInitOccludedArguments(&occluded_);
+    const auto set = [&](auto& arguments) {
+      arguments.context = &context;
+      arguments.filter = filter;
+      const unsigned flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER |
+                             (coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT);
+      arguments.flags = static_cast<RTCRayQueryFlags>(flags);
+    };
+    set(intersect_);
+    set(occluded_);
+  }
+
+  void trace(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray, &occluded_); }
+  void trace(RTCScene scene, RTCRayHit& ray) { rtcIntersect1(scene, &ray, &intersect_); }
+  void trace(RTCScene scene, const int* valid, RTCRay8& rays) { rtcOccluded8(valid, scene, &rays, &occluded_); }
+  void trace(RTCScene scene, const int* valid, RTCRayHit8& rays) { rtcIntersect8(valid, scene, &rays, &intersect_); }
+  void trace(RTCScene scene, const int* valid, RTCRay16& rays) { rtcOccluded16(valid, scene, &rays, &occluded_); }
+  void trace(RTCScene scene, const int* valid, RTCRayHit16& rays) { rtcIntersect16(valid, scene, &rays, &intersect_); }
+
+ private:
+  RTCIntersectArguments intersect_;
+  RTCOccludedArguments occluded_;
+#else
+  FilteredQueries(Context& context, RTCFilterFunctionN filter, bool coherent) : context_(&context) {
+    context.filter = filter;
+    if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  }
+
+  void trace(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, context_, &ray); }
+  void trace(RTCScene scene, RTCRayHit& ray) { rtcIntersect1(scene, context_, &ray); }
+  void trace(RTCScene scene, const int* valid, RTCRay8& rays) { rtcOccluded8(valid, scene, context_, &rays); }
+  void trace(RTCScene scene, const int* valid, RTCRayHit8& rays) { rtcIntersect8(valid, scene, context_, &rays); }
+  void trace(RTCScene scene, const int* valid, RTCRay16& rays) { rtcOccluded16(valid, scene, context_, &rays); }
+  void trace(RTCScene scene, const int* valid, RTCRayHit16& rays) { rtcIntersect16(valid, scene, context_, &rays); }
+
+  void trace_stream(RTCScene scene, RTCRay* rays, unsigned count) {
+    rtcOccluded1M(scene, context_, rays, count, sizeof(RTCRay));
+  }
+  void trace_stream(RTCScene scene, RTCRayHit* rays, unsigned count) {
+    rtcIntersect1M(scene, context_, rays, count, sizeof(RTCRayHit));
+  }
+  void trace_stream(RTCScene scene, RTCRay8* packets, unsigned count) {
+    rtcOccludedNM(scene, context_, reinterpret_cast<RTCRayN*>(packets), 8, count, sizeof(RTCRay8));
+  }
+  void trace_stream(RTCScene scene, RTCRayHit8* packets, unsigned count) {
+    rtcIntersectNM(scene, context_, reinterpret_cast<RTCRayHitN*>(packets), 8, count, sizeof(RTCRayHit8));
+  }
+
+ private:
+  Context* context_;
+#endif
+};
 
 struct Release {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }

@@ -82,7 +82,7 @@ class DiscTest {
 
 /// Data that Embree passes to our callback with each disc. Embree's own context must come first.
 struct Query {
-  RTCIntersectContext context;
+  embree::Context context;
   DiscTest* discs;
 };
 static_assert(std::is_standard_layout_v<Query>);
@@ -113,7 +113,7 @@ class Bvh {
   /// Passes every disc whose box the ray meets to the query.
   void trace(const Ray& ray, Query& query) const {
     if (std::optional<RTCRay> clipped_ray = frame_.clipped_ray(ray))
-      rtcOccluded1(scene_.get(), &query.context, &*clipped_ray);
+      embree::occluded1(scene_.get(), query.context, *clipped_ray);
   }
 
  private:
@@ -164,7 +164,7 @@ class VectorBvhSearch final : public RaySearch, private DiscTest {
 
   void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) override {
     Query query{.context = {}, .discs = this};
-    rtcInitIntersectContext(&query.context);
+    embree::init(query.context);
     tests_.load(first, last, hits);
     for (std::uint32_t ray = first; ray < last; ++ray) {
       tests_.begin(ray);
@@ -209,7 +209,7 @@ class BvhSearch final : public RaySearch, private DiscTest {
 
   void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) override {
     Query query{.context = {}, .discs = this};
-    rtcInitIntersectContext(&query.context);
+    embree::init(query.context);
     hits_ = &hits;
     for (ray_ = first; ray_ < last; ++ray_) {
       bvh_.trace(problem_.rays()[ray_], query);

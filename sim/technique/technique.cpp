@@ -16,7 +16,7 @@ Prepare prepare_brute_force, prepare_sphere_cache, prepare_sphere_cache_publishe
 
 namespace {
 
-constexpr std::array<TechniqueSearch, all_techniques.size()> registry{{
+constexpr std::array<TechniqueSearch, technique_records.size()> registry{{
     {Technique::brute_force, prepare_brute_force},
     {Technique::sphere_cache, prepare_sphere_cache},
     {Technique::sphere_cache_published, prepare_sphere_cache_published},
@@ -26,7 +26,11 @@ constexpr std::array<TechniqueSearch, all_techniques.size()> registry{{
     {Technique::octree, prepare_octree},
     {Technique::grid, prepare_grid},
     {Technique::bsp, prepare_bsp},
+#ifdef DETP_WITHOUT_EMBREE
+    {Technique::bvh, nullptr},  // no valid candidate
+#else
     {Technique::bvh, prepare_bvh},
+#endif
     {Technique::ray_map, prepare_ray_map},
     {Technique::photon_map, prepare_photon_map},
 }};

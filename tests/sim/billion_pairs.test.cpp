@@ -33,7 +33,7 @@ std::vector<Candidate> all_exact() {
                            {Technique::grid, GridParameters{16}},
                            {Technique::bvh, BvhParameters{}},
                            {Technique::ray_map, RayMapParameters{}}});
-  return list;
+  return support::built(std::move(list));
 }
 
 /// Totals of the comparisons so far.

@@ -41,7 +41,7 @@ const std::vector<Candidate>& hard_candidates() {
                            {Technique::bvh, BvhParameters{BuildQuality::medium}},
                            {Technique::ray_map, RayMapParameters{1}},
                            {Technique::ray_map, RayMapParameters{32}}});
-    return all;
+    return support::built(std::move(all));
   }();
   return list;
 }

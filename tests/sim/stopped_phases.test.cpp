@@ -152,7 +152,7 @@ TEST_SUITE("identity") {
                    [&](const auto& stop) { use(prepare(problem(), candidate, {.stop = stop})); }, count});
   }
 
-  TEST_CASE("a stop request ends Embree's build of a tree") {
+  TEST_CASE("a stop request ends Embree's build of a tree" * doctest::skip(!has_embree)) {
     std::stop_source source;
     source.request_stop();
     const Candidate bvh{Technique::bvh, BvhParameters{BuildQuality::medium}};

@@ -7,12 +7,18 @@
 /// Techniques with parameters.
 namespace detp::support {
 
+/// Those that this build of the library has.
+inline std::vector<Candidate> built(std::vector<Candidate> candidates) {
+  std::erase_if(candidates, [](const Candidate& candidate) { return !record_of(candidate.technique).built; });
+  return candidates;
+}
+
 /// Variants of every exact technique with small parameters.
 inline const std::vector<Candidate>& exact_candidates() {
   static const std::vector<Candidate> list = [] {
     std::vector<Candidate> all;
     for (const TechniqueRecord& record : technique_records)
-      if (record.exact)
+      if (record.exact && record.built)
         for (const Candidate& variant : small_variants(record.technique)) all.push_back(variant);
     return all;
   }();
@@ -21,17 +27,18 @@ inline const std::vector<Candidate>& exact_candidates() {
 
 /// A variant of every exact technique, brute force first.
 inline const std::vector<Candidate>& one_of_each() {
-  static const std::vector<Candidate> list{{Technique::brute_force, BruteForceParameters{}},
-                                           {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
-                                           {Technique::cell_spheres, CellSpheresParameters{3}},
-                                           {Technique::sphere_tree, SphereTreeParameters{8, 4}},
-                                           {Technique::box_tree, BoxTreeParameters{8, 4}},
-                                           {Technique::octree, OctreeParameters{3}},
-                                           {Technique::octree, OctreeParameters{3, Traversal::neighbour_links}},
-                                           {Technique::bsp, BspParameters{8, 4}},
-                                           {Technique::bvh, BvhParameters{}},
-                                           {Technique::ray_map, RayMapParameters{}},
-                                           {Technique::grid, GridParameters{8}}};
+  static const std::vector<Candidate> list =
+      built({{Technique::brute_force, BruteForceParameters{}},
+             {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
+             {Technique::cell_spheres, CellSpheresParameters{3}},
+             {Technique::sphere_tree, SphereTreeParameters{8, 4}},
+             {Technique::box_tree, BoxTreeParameters{8, 4}},
+             {Technique::octree, OctreeParameters{3}},
+             {Technique::octree, OctreeParameters{3, Traversal::neighbour_links}},
+             {Technique::bsp, BspParameters{8, 4}},
+             {Technique::bvh, BvhParameters{}},
+             {Technique::ray_map, RayMapParameters{}},
+             {Technique::grid, GridParameters{8}}});
   return list;
 }
 

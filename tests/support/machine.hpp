@@ -1,10 +1,13 @@
 #pragma once
 
 #include <doctest/doctest.h>
-#include <immintrin.h>
 #include <tbb/parallel_for.h>
+#if defined(__SSE__)
+#include <immintrin.h>
+#endif
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -35,13 +38,26 @@ inline constexpr bool sanitized = false;
 /// While it exists, its thread flushes subnormal numbers to zero, as arguments and as results.
 class Flushing {
  public:
-  Flushing() { _mm_setcsr(before_ | 0x8040U); }
-  ~Flushing() { _mm_setcsr(before_); }
+  Flushing() { set_control(before_ | flushing); }
+  ~Flushing() { set_control(before_); }
   Flushing(const Flushing&) = delete;
   Flushing& operator=(const Flushing&) = delete;
 
  private:
-  unsigned before_ = _mm_getcsr();
+#if defined(__SSE__)
+  static constexpr std::uint64_t flushing = 0x8040;
+  static std::uint64_t control() { return _mm_getcsr(); }
+  static void set_control(std::uint64_t value) { _mm_setcsr(static_cast<unsigned>(value)); }
+#elif defined(__aarch64__)
+  static constexpr std::uint64_t flushing = std::uint64_t{1} << 24;
+  static std::uint64_t control() {
+    std::uint64_t value = 0;
+    asm volatile("mrs %0, fpcr" : "=r"(value));
+    return value;
+  }
+  static void set_control(std::uint64_t value) { asm volatile("msr fpcr, %0" : : "r"(value)); }
+#endif
+  std::uint64_t before_ = control();
 };
 
 /// Whether this thread loses a subnormal number.

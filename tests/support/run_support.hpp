@@ -1,5 +1,6 @@
 #pragma once
 
+#include "detp/model/vocabulary/technique.hpp"
 #include "detp/sim/files/disc_file.hpp"
 #include "detp/sim/files/ray_file.hpp"
 #include "detp/sim/geometry/directions.hpp"
@@ -78,8 +79,8 @@ inline const std::vector<std::string>& exact_techniques() {
                                             "--technique grid",
                                             "--technique grid --cells 1",
                                             "--technique grid --cells 37",
-                                            "--technique bvh",
-                                            "--technique bvh --quality medium",
+                                            detp::has_embree ? "--technique bvh" : "",
+                                            detp::has_embree ? "--technique bvh --quality medium" : "",
                                             "--technique ray-map"};
   return all;
 }
@@ -94,7 +95,7 @@ inline const std::vector<std::string>& best_techniques() {
                                             "--technique octree",
                                             "--technique bsp",
                                             "--technique grid",
-                                            "--technique bvh",
+                                            detp::has_embree ? "--technique bvh" : "",
                                             "--technique ray-map"};
   return all;
 }

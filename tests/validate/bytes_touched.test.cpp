@@ -61,6 +61,7 @@ TEST_SUITE("reference value") {
         return std::max(expected, 1e6) / std::max(found, 1e6);  // below a megabyte nothing matters
       };
       for (const Technique technique : near) {
+        if (!record_of(technique).built) continue;
         INFO("name(technique) ", name(technique), ", size.discs ", size.discs);
         CHECK(ratio(technique) == doctest::Approx(1).epsilon(0.25));
       }

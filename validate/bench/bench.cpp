@@ -53,6 +53,7 @@ class Benchmark {
   Benchmark(std::span<const BenchWorkload> workloads, const BenchOptions& options)
       : workloads_(workloads), options_(options) {
     if (!options.instruction_set.empty()) only_.emplace(options.instruction_set);
+    if (options.embree_modes.empty()) return;
     for (const int threads : options.threads)
       peers_.try_emplace(threads, std::make_unique<EmbreePeer>(threads, options.instruction_set));
   }
@@ -117,7 +118,7 @@ class Benchmark {
       how.threads = threads;
       how.progress = sim::part_of(progress, before, after);
       before = after;
-      Race found = race(job, right, *peers_.at(threads), competitors, how);
+      Race found = race(job, right, peers_.empty() ? nullptr : peers_.at(threads).get(), competitors, how);
       const bool complete = found.complete;
       if (!found.results.empty())
         entries_.push_back({workload, job.given.samples, job.given.disc_radius, threads, sim::stream::instruction_set(),
@@ -163,12 +164,15 @@ BenchResult run_bench(std::span<const BenchWorkload> workloads, const BenchOptio
 }
 
 std::vector<EmbreeMode> best_embree_modes() {
-  return {{EmbreeQuery::occluded, EmbreeRays::one, EmbreeQuality::low, false},
-          {EmbreeQuery::occluded, EmbreeRays::one, EmbreeQuality::medium, false},
-          {EmbreeQuery::occluded, EmbreeRays::one, EmbreeQuality::high, false},
-          {EmbreeQuery::occluded, EmbreeRays::packet_8, EmbreeQuality::medium, false},
-          {EmbreeQuery::occluded, EmbreeRays::stream_of_packets, EmbreeQuality::low, false},
-          {EmbreeQuery::intersect, EmbreeRays::one, EmbreeQuality::medium, false}};
+  std::vector<EmbreeMode> best{{EmbreeQuery::occluded, EmbreeRays::one, EmbreeQuality::low, false},
+                               {EmbreeQuery::occluded, EmbreeRays::one, EmbreeQuality::medium, false},
+                               {EmbreeQuery::occluded, EmbreeRays::one, EmbreeQuality::high, false},
+                               {EmbreeQuery::occluded, EmbreeRays::packet_8, EmbreeQuality::medium, false},
+                               {EmbreeQuery::occluded, EmbreeRays::stream_of_packets, EmbreeQuality::low, false},
+                               {EmbreeQuery::intersect, EmbreeRays::one, EmbreeQuality::medium, false}};
+  const std::vector<EmbreeMode> all = all_embree_modes();
+  std::erase_if(best, [&](const EmbreeMode& mode) { return std::ranges::find(all, mode) == all.end(); });
+  return best;
 }
 
 }  // namespace detp::validate

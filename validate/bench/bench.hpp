@@ -79,18 +79,18 @@ struct Race {
 /// time of a slower competitor would not change the result. Every run's hits are compared with the right hits after the
 /// time has been taken.
 ///
-/// Embree uses the threads of `embree`; their number should equal options.threads.
-[[nodiscard]] Race race(const Job& job, const RightHits& right, const EmbreePeer& embree,
+/// Embree uses the threads of `embree`; their number should equal options.threads. Null if no competitor is a mode of Embree.
+[[nodiscard]] Race race(const Job& job, const RightHits& right, const EmbreePeer* embree,
                         const std::vector<Competitor>& competitors, const RaceOptions& options);
 
 struct BenchOptions {
   /// of each; `threads` is not used, and `progress` is that of the whole. Our choice takes part if there are costs, where float kernels can search
   RaceOptions race = {};
-  std::vector<Technique> techniques = {};     ///< our techniques to run; empty: all exact techniques
-  std::vector<EmbreeMode> embree_modes = {};  ///< at least one
-  std::vector<int> threads = {1};             ///< each workload is run with each of these numbers of threads
-  std::string instruction_set = {};           ///< of our kernels and of Embree; empty: all that the machine has
-  double most_hits = 5e6;                     ///< a workload is skipped if more hits are expected
+  std::vector<Technique> techniques = {};  ///< our techniques to run; empty: all exact techniques
+  std::vector<EmbreeMode> embree_modes = {};
+  std::vector<int> threads = {1};    ///< each workload is run with each of these numbers of threads
+  std::string instruction_set = {};  ///< of our kernels and of Embree; empty: all that the machine has
+  double most_hits = 5e6;            ///< a workload is skipped if more hits are expected
   std::uint64_t seed = 1;
 };
 

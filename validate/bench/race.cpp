@@ -19,7 +19,7 @@ constexpr std::size_t finalists_of_a_side = 2;
 
 class RaceRunner {
  public:
-  RaceRunner(const Job& job, const RightHits& right, const EmbreePeer& embree, const RaceOptions& options)
+  RaceRunner(const Job& job, const RightHits& right, const EmbreePeer* embree, const RaceOptions& options)
       : job_(job), right_(right), embree_(embree), options_(options) {}
 
   Race run_all(const std::vector<Competitor>& competitors) {
@@ -59,7 +59,7 @@ class RaceRunner {
   std::optional<double> run(CompetitorResult& result) const {
     const OwnTime time(options_.threads);
     if (const auto* mode = std::get_if<EmbreeMode>(&result.competitor)) {
-      const PeerOutcome outcome = embree_.run(job_.rays, job_.discs, *mode, options_.stop);
+      const PeerOutcome outcome = embree_->run(job_.rays, job_.discs, *mode, options_.stop);
       return record_run(result, outcome, time.seconds());
     }
     // Checked for each run: its time is that of a program that has rays and discs.
@@ -112,7 +112,7 @@ class RaceRunner {
 
   const Job& job_;
   const RightHits& right_;
-  const EmbreePeer& embree_;
+  const EmbreePeer* embree_;
   const RaceOptions& options_;
   sim::Stopwatch watch_;
   double share_ = 0;  ///< share of the time that is done after the current run
@@ -149,7 +149,7 @@ std::string parameters_of(const Competitor& competitor) {
 
 double CompetitorResult::median_seconds() const { return median(seconds); }
 
-Race race(const Job& job, const RightHits& right, const EmbreePeer& embree, const std::vector<Competitor>& competitors,
+Race race(const Job& job, const RightHits& right, const EmbreePeer* embree, const std::vector<Competitor>& competitors,
           const RaceOptions& options) {
   return RaceRunner(job, right, embree, options).run_all(competitors);
 }

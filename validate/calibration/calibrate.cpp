@@ -233,9 +233,9 @@ class Calibrator {
   MeasuredCalibration result_;
   std::deque<TimedScene> scenes_;
   std::vector<TimedCandidate> timed_;
-  std::array<std::array<TechniqueRuns, all_techniques.size()>, 2> runs_;  ///< by engine
-  double wall_seconds_ = 0;                                               ///< of runs on one thread
-  double processor_seconds_ = 0;                                          ///< of these
+  std::array<std::array<TechniqueRuns, technique_records.size()>, 2> runs_;  ///< by engine
+  double wall_seconds_ = 0;                                                  ///< of runs on one thread
+  double processor_seconds_ = 0;                                             ///< of these
   std::vector<TooLong> too_long_;
 };
 

@@ -129,7 +129,7 @@ class Probe {
   sim::Stopwatch watch_;
   std::deque<TimedScene> scenes_;
   std::vector<TimedCandidate> timed_;
-  std::array<std::array<PhaseRatios, all_techniques.size()>, 2> ratios_ = {};  ///< by engine
+  std::array<std::array<PhaseRatios, technique_records.size()>, 2> ratios_ = {};  ///< by engine
 };
 
 }  // namespace

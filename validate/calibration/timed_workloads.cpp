@@ -194,7 +194,7 @@ std::vector<Candidate> timed_candidates(const TimedWorkload& workload, std::size
   for (const double factor : {0.25, pick(0.5, 1.0), 2.0})
     list.push_back({Technique::grid, GridParameters{static_cast<int>(factor * cells)}});
   for (const Technique technique : {Technique::bsp, Technique::bvh, Technique::ray_map})
-    list.push_back(default_candidate(technique));
+    if (record_of(technique).built) list.push_back(default_candidate(technique));
   return list;
 }
 

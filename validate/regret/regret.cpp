@@ -115,7 +115,8 @@ class RegretRunner {
     std::vector<Contender> asked;
     for (const Chosen& choice : choices) asked.push_back({choice.prediction.candidate, choice.prediction.threads});
     for (const auto& candidates : options)
-      for (const Candidate& candidate : candidates) asked.push_back({candidate, threads});
+      for (const Candidate& candidate : candidates)
+        if (record_of(candidate.technique).built) asked.push_back({candidate, threads});
     ExhaustiveOptions search = options_.search;
     search.threads = threads;
     search.stop = options_.stop;

@@ -187,8 +187,8 @@ TEST_SUITE("bad input") {
       CHECK_THROWS_WITH_AS(
           (void)predict(typical, {Technique::sphere_cache, SphereCacheParameters{bad, 3}}, Engine::plain),
           Contains("radius ratio Q"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)predict(typical, {Technique::bvh, BvhParameters{}}, Engine::plain),
-                         Contains("no closed form of bvh"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)predict(typical, {Technique::bsp, BspParameters{}}, Engine::plain),
+                         Contains("no closed form of bsp"), std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)predict(typical, {Technique::octree, GridParameters{3}}, Engine::plain),
                          Contains("octree"), std::invalid_argument);
   }

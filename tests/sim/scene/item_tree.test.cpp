@@ -6,12 +6,11 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <string>
 #include <vector>
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/geometry/random.hpp"
-#include "detp/sim/lists/simd/instruction_sets.hpp"
+#include "support/machine.hpp"
 
 using namespace detp::sim;
 
@@ -98,10 +97,7 @@ bool finds_all(const std::vector<ItemBox>& boxes) {
 
 TEST_SUITE("known answer") {
   TEST_CASE("rays and points find all items whose box they meet, with each instruction set") {
-    for (const stream::InstructionSet& set : stream::compiled_instruction_sets()) {
-      if (!set.here) continue;
-      CAPTURE(set.name);
-      const stream::OnlyInstructionSet only(set.name);
+    detp::support::with_each_instruction_set([] {
       for (const std::size_t count : {0, 1, 2, 5, 9, 100, 3000}) {
         CAPTURE(count);
         CHECK(finds_all(random_boxes(count, 0.1F)));
@@ -113,7 +109,7 @@ TEST_SUITE("known answer") {
         line[i].high = line[i].low + glm::vec3(0, 0.1F, 0.1F);
       }
       CHECK(finds_all(line));
-    }
+    });
   }
 
   TEST_CASE("a ray that gets shorter visits only what is nearer") {

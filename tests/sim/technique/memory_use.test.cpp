@@ -167,21 +167,22 @@ Measured measure_apart(const Case& each) {
 }
 
 std::vector<Case> cases() {
-  const std::vector<Candidate> all{{Technique::brute_force, {}},
-                                   {Technique::sphere_cache, SphereCacheParameters{0.65, 8}},
-                                   {Technique::sphere_cache, SphereCacheParameters{0.9, 40}},
-                                   {Technique::cell_spheres, CellSpheresParameters{5}},
-                                   {Technique::box_tree, BoxTreeParameters{4, 16}},
-                                   {Technique::box_tree, BoxTreeParameters{2, 1}},
-                                   {Technique::box_tree, BoxTreeParameters{4, 64}},
-                                   {Technique::sphere_tree, SphereTreeParameters{8, 4}},
-                                   {Technique::octree, OctreeParameters{5}},
-                                   {Technique::octree, OctreeParameters{6, Traversal::neighbour_links}},
-                                   {Technique::grid, GridParameters{60}},
-                                   {Technique::grid, GridParameters{150}},
-                                   {Technique::bsp, BspParameters{}},
-                                   {Technique::bvh, BvhParameters{BuildQuality::low}},
-                                   {Technique::bvh, BvhParameters{BuildQuality::medium}}};
+  const std::vector<Candidate> all =
+      support::built({{Technique::brute_force, {}},
+                      {Technique::sphere_cache, SphereCacheParameters{0.65, 8}},
+                      {Technique::sphere_cache, SphereCacheParameters{0.9, 40}},
+                      {Technique::cell_spheres, CellSpheresParameters{5}},
+                      {Technique::box_tree, BoxTreeParameters{4, 16}},
+                      {Technique::box_tree, BoxTreeParameters{2, 1}},
+                      {Technique::box_tree, BoxTreeParameters{4, 64}},
+                      {Technique::sphere_tree, SphereTreeParameters{8, 4}},
+                      {Technique::octree, OctreeParameters{5}},
+                      {Technique::octree, OctreeParameters{6, Traversal::neighbour_links}},
+                      {Technique::grid, GridParameters{60}},
+                      {Technique::grid, GridParameters{150}},
+                      {Technique::bsp, BspParameters{}},
+                      {Technique::bvh, BvhParameters{BuildQuality::low}},
+                      {Technique::bvh, BvhParameters{BuildQuality::medium}}});
   RunOptions pairs{.count = false, .pairs = true, .threads = two_threads};
   RunOptions errors{.count = false, .standard_error = true, .threads = two_threads};
   RunOptions plain{.count = false, .engine = Engine::plain, .threads = two_threads};

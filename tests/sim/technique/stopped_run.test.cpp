@@ -43,7 +43,7 @@ const std::vector<SearchCase>& search_cases() {
                                            {{Technique::octree, OctreeParameters{3, Traversal::neighbour_links}}},
                                            {{Technique::grid, GridParameters{8}}},
                                            {{Technique::bsp, BspParameters{}}},
-                                           {{Technique::bvh, BvhParameters{}}}};
+                                           {{has_embree ? default_candidate(Technique::bvh) : Candidate{}}}};
   return all;
 }
 
@@ -192,8 +192,8 @@ TEST_SUITE("identity") {
     const std::vector<Ray> rays = lines(3000);
     const std::vector<Disc> coincident(100'000, Disc{.centre = {0.1, 0.1, 0.1}, .normal = {0, 0, 1}, .radius = 0.5});
     for (const Candidate& candidate :
-         {Candidate{Technique::bvh, BvhParameters{}}, Candidate{Technique::octree, OctreeParameters{1}},
-          Candidate{Technique::bsp, BspParameters{}}, Candidate{Technique::grid, GridParameters{2}}}) {
+         support::built({Candidate{Technique::bvh, BvhParameters{}}, Candidate{Technique::octree, OctreeParameters{1}},
+                         Candidate{Technique::bsp, BspParameters{}}, Candidate{Technique::grid, GridParameters{2}}})) {
       CAPTURE(name(candidate.technique));
       const StopAfterWork stop(20.0 * StopCheck::most_work + 1);
       CHECK(run(make_problem(rays, coincident), candidate, {.stop = stop.token()}).stopped);

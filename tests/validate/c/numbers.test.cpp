@@ -125,7 +125,7 @@ TEST_SUITE("c interface") {
     refused("sphere-cache", R"({"ratio":1.5})", 0, "ratio");
     refused("octree", nullptr, 1, "published");
     refused("sphere-cache", nullptr, 1, "ratio");
-    refused("bvh", nullptr, 0, "closed form");
+    refused("bsp", nullptr, 0, "closed form");
   }
 
   TEST_CASE("a run finds in memory what the command prints") {

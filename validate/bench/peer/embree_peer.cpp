@@ -3,10 +3,8 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
 
-#include <array>
 #include <numbers>
 #include <stdexcept>
-#include <type_traits>
 
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/embree.hpp"
@@ -15,14 +13,6 @@
 #include "embree_tracer.hpp"
 
 namespace detp::validate {
-
-struct ReleaseEmbree {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-template <class Handle>
-using EmbreeOwned = std::unique_ptr<std::remove_pointer_t<Handle>, ReleaseEmbree>;
 
 namespace {
 
@@ -56,21 +46,21 @@ void require_no_embree_error(RTCDevice device) {
 
 /// A device that builds with `threads` threads, which have been started when the function returns. It uses the counterpart of one of our
 /// instruction sets (AVX3: AVX-512; AVX2; SSE4: SSE4.2), or all that the machine has if this is empty.
-EmbreeOwned<RTCDevice> make_embree_device(int threads, const std::string& instruction_set) {
+sim::embree::Owned<RTCDevice> make_embree_device(int threads, const std::string& instruction_set) {
   const std::string settings = "threads=" + std::to_string(threads) + ",start_threads=1" + setting_of(instruction_set);
-  EmbreeOwned<RTCDevice> device(rtcNewDevice(settings.c_str()));
+  sim::embree::Owned<RTCDevice> device(rtcNewDevice(settings.c_str()));
   require_no_embree_error(device.get());
   return device;
 }
 
 /// A committed scene of oriented discs in single precision. Primitive i is disc i. Queries call the context's filter.
 /// Throws sim::Stopped if a stop was requested, and as require_no_embree_error does.
-EmbreeOwned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::Disc> discs, EmbreeQuality quality,
-                                         const std::stop_token& stop) {
-  EmbreeOwned<RTCScene> scene(rtcNewScene(device));
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+sim::embree::Owned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::Disc> discs,
+                                                EmbreeQuality quality, const std::stop_token& stop) {
+  sim::embree::Owned<RTCScene> scene(rtcNewScene(device));
+  rtcSetSceneFlags(scene.get(), sim::embree::filter_of_query);
   rtcSetSceneBuildQuality(scene.get(), to_embree(quality));
-  const EmbreeOwned<RTCGeometry> geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT));
+  const sim::embree::Owned<RTCGeometry> geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT));
   rtcSetGeometryBuildQuality(geometry.get(), to_embree(quality));
   float* vertex = new_buffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, 4, discs.size());
   float* normal = new_buffer(geometry.get(), RTC_BUFFER_TYPE_NORMAL, RTC_FORMAT_FLOAT3, 3, discs.size());
@@ -120,37 +110,12 @@ PeerOutcome merged(oneapi::tbb::enumerable_thread_specific<Tallies>& all, std::s
 
 }  // namespace
 
-std::string call_of(const EmbreeMode& mode) {
-  constexpr std::array suffixes{"1", "8", "16", "1M", "NM"};
-  const std::string stem = mode.query == EmbreeQuery::intersect ? "rtcIntersect" : "rtcOccluded";
-  return stem + suffixes[static_cast<std::size_t>(mode.rays)];
-}
-
-std::string name(EmbreeQuality quality) {
-  constexpr std::array names{"low", "medium", "high"};
-  return names[static_cast<std::size_t>(quality)];
-}
-
-std::string describe(const EmbreeMode& mode) {
-  return call_of(mode) + ", " + name(mode.quality) + (mode.coherent ? ", coherent" : ", incoherent");
-}
-
-std::vector<EmbreeMode> all_embree_modes() {
-  std::vector<EmbreeMode> modes;
-  for (const auto quality : {EmbreeQuality::low, EmbreeQuality::medium, EmbreeQuality::high})
-    for (const auto query : {EmbreeQuery::intersect, EmbreeQuery::occluded})
-      for (const auto rays : {EmbreeRays::one, EmbreeRays::packet_8, EmbreeRays::packet_16, EmbreeRays::stream_of_rays,
-                              EmbreeRays::stream_of_packets})
-        for (const bool coherent : {false, true}) modes.push_back({query, rays, quality, coherent});
-  return modes;
-}
-
 struct EmbreePeer::Threads {
   Threads(int threads, const std::string& instruction_set)
       : count(threads), device(make_embree_device(threads, instruction_set)) {}
 
   int count;
-  EmbreeOwned<RTCDevice> device;
+  sim::embree::Owned<RTCDevice> device;
 };
 
 EmbreePeer::EmbreePeer(int threads, const std::string& instruction_set)

@@ -48,7 +48,7 @@ struct EmbreeMode {
 /// "rtcIntersect8, low, coherent".
 [[nodiscard]] std::string describe(const EmbreeMode& mode);
 
-/// All 60 modes.
+/// All modes: 60 of Embree 3, 36 of Embree 4, which has no streams of rays, and none if this build has no Embree.
 [[nodiscard]] std::vector<EmbreeMode> all_embree_modes();
 
 /// Embree's results for each disc.
@@ -58,7 +58,7 @@ struct PeerOutcome {
   bool stopped = false;            ///< true if the run was stopped: the results are partial
 };
 
-/// Embree 3, used as its documentation advises: RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT, hits collected by the context's
+/// Embree 3 or 4, used as its documentation advises: RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT, hits collected by the context's
 /// filter, denormals flushed to zero, aligned rays written in single stores, coherent streams of 64. Decides hits in
 /// single precision, so rounding may make hits near a disc's rim wrong.
 ///
@@ -66,7 +66,7 @@ struct PeerOutcome {
 class EmbreePeer {
  public:
   /// `instruction_set` is one of ours; empty: all that the machine has. Throws
-  /// std::invalid_argument for one of which Embree has no counterpart.
+  /// std::invalid_argument for one of which Embree has no counterpart, and std::runtime_error if this build has no Embree.
   explicit EmbreePeer(int threads, const std::string& instruction_set = {});
   ~EmbreePeer();
   EmbreePeer(const EmbreePeer&) = delete;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <iterator>
+#include <stdexcept>
 #include <type_traits>
 
 namespace detp::validate {
@@ -82,8 +83,7 @@ class EmbreeRayMaker {
   sim::Sphere around_;
 };
 
-/// Overloads of Embree's calls, selected by the type of the ray: RTCRay for rtcOccluded, RTCRayHit for rtcIntersect, or
-/// packets of 8 or 16 of these.
+/// What depends on the type of the ray: RTCRay for rtcOccluded, RTCRayHit for rtcIntersect, or packets of 8 or 16 of these.
 namespace calls {
 
 /// The ray, or packet of rays, in a call's argument.
@@ -106,40 +106,11 @@ void clear_hit(Packet& packet) {
     std::fill(std::begin(packet.hit.geomID), std::end(packet.hit.geomID), RTC_INVALID_GEOMETRY_ID);
 }
 
-void query(RTCScene scene, RTCIntersectContext& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
-void query(RTCScene scene, RTCIntersectContext& context, RTCRayHit& ray) { rtcIntersect1(scene, &context, &ray); }
-
-void query(const int* valid, RTCScene scene, RTCIntersectContext& context, RTCRay8& packet) {
-  rtcOccluded8(valid, scene, &context, &packet);
-}
-void query(const int* valid, RTCScene scene, RTCIntersectContext& context, RTCRayHit8& packet) {
-  rtcIntersect8(valid, scene, &context, &packet);
-}
-void query(const int* valid, RTCScene scene, RTCIntersectContext& context, RTCRay16& packet) {
-  rtcOccluded16(valid, scene, &context, &packet);
-}
-void query(const int* valid, RTCScene scene, RTCIntersectContext& context, RTCRayHit16& packet) {
-  rtcIntersect16(valid, scene, &context, &packet);
-}
-
-void query_stream(RTCScene scene, RTCIntersectContext& context, RTCRay* rays, unsigned count) {
-  rtcOccluded1M(scene, &context, rays, count, sizeof(RTCRay));
-}
-void query_stream(RTCScene scene, RTCIntersectContext& context, RTCRayHit* rays, unsigned count) {
-  rtcIntersect1M(scene, &context, rays, count, sizeof(RTCRayHit));
-}
-void query_stream(RTCScene scene, RTCIntersectContext& context, RTCRay8* packets, unsigned count) {
-  rtcOccludedNM(scene, &context, reinterpret_cast<RTCRayN*>(packets), 8, count, sizeof(RTCRay8));
-}
-void query_stream(RTCScene scene, RTCIntersectContext& context, RTCRayHit8* packets, unsigned count) {
-  rtcIntersectNM(scene, &context, reinterpret_cast<RTCRayHitN*>(packets), 8, count, sizeof(RTCRayHit8));
-}
-
 }  // namespace calls
 
 /// Data that Embree passes to the filter. Embree's own context must be the first member.
 struct FilterData {
-  RTCIntersectContext context;
+  sim::embree::Context context;
   const sim::Ray* rays;
   DiscTally* tallies;
 
@@ -169,7 +140,7 @@ void collect_and_refuse(const RTCFilterFunctionNArguments* arguments) {
 }
 
 // Embree's documentation recommends coherent streams of around 64 rays.
-constexpr std::size_t stream = 64;
+[[maybe_unused]] constexpr std::size_t stream = 64;
 
 class EmbreeTracer {
  public:
@@ -178,25 +149,30 @@ class EmbreeTracer {
 
   /// RayHit, Packet8, Packet16: RTCRay… for rtcOccluded, RTCRayHit… for rtcIntersect.
   template <class RayHit, class Packet8, class Packet16>
-  void trace(EmbreeRays form, const RayBlock& block, RTCIntersectContext& context) const {
+  void trace(EmbreeRays form, const RayBlock& block, sim::embree::FilteredQueries& queries) const {
     switch (form) {
       case EmbreeRays::one:
-        return send<RayHit, 1>(block, context);
+        return send<RayHit, 1>(block, queries);
       case EmbreeRays::packet_8:
-        return send<Packet8, 1>(block, context);
+        return send<Packet8, 1>(block, queries);
       case EmbreeRays::packet_16:
-        return send<Packet16, 1>(block, context);
+        return send<Packet16, 1>(block, queries);
+#if DETP_EMBREE == 3  // Embree 4 has no streams
       case EmbreeRays::stream_of_rays:
-        return send<RayHit, stream>(block, context);
+        return send<RayHit, stream>(block, queries);
       case EmbreeRays::stream_of_packets:
-        return send<Packet8, stream / 8>(block, context);
+        return send<Packet8, stream / 8>(block, queries);
+#else
+      default:
+        throw std::invalid_argument("this Embree has no streams of rays");
+#endif
     }
   }
 
  private:
   /// Sends the rays in single rays or packets, some in each call.
   template <class Item, std::size_t in_a_call>
-  void send(const RayBlock& block, RTCIntersectContext& context) const {
+  void send(const RayBlock& block, sim::embree::FilteredQueries& queries) const {
     constexpr std::size_t width = calls::width<Item>;
     std::array<Item, in_a_call> sent{};
     for (std::size_t first = block.first; first < block.last;) {
@@ -207,13 +183,15 @@ class EmbreeTracer {
         write(first, count, sent[filled++]);
       }
       if constexpr (in_a_call > 1) {
-        calls::query_stream(scene_, context, sent.data(), filled);
+#if DETP_EMBREE == 3
+        queries.trace_stream(scene_, sent.data(), filled);
+#endif
       } else if constexpr (width > 1) {
         alignas(64) std::array<int, width> valid{};
         for (std::size_t lane = 0; lane < width; ++lane) valid[lane] = lane < count ? -1 : 0;
-        calls::query(valid.data(), scene_, context, sent.front());
+        queries.trace(scene_, valid.data(), sent.front());
       } else {
-        calls::query(scene_, context, sent.front());
+        queries.trace(scene_, sent.front());
       }
     }
   }
@@ -247,14 +225,13 @@ void trace(RTCScene scene, std::span<const sim::Ray> rays, const sim::Sphere& ar
            const RayBlock& block, std::vector<DiscTally>& tallies) {
   const FlushDenormals flush;
   FilterData collecting{.context = {}, .rays = rays.data(), .tallies = tallies.data()};
-  rtcInitIntersectContext(&collecting.context);
-  collecting.context.filter = collect_and_refuse;
-  if (mode.coherent) collecting.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  sim::embree::init(collecting.context);
+  sim::embree::FilteredQueries queries(collecting.context, collect_and_refuse, mode.coherent);
   const EmbreeTracer tracer(scene, rays, around);
   if (mode.query == EmbreeQuery::intersect)
-    tracer.trace<RTCRayHit, RTCRayHit8, RTCRayHit16>(mode.rays, block, collecting.context);
+    tracer.trace<RTCRayHit, RTCRayHit8, RTCRayHit16>(mode.rays, block, queries);
   else
-    tracer.trace<RTCRay, RTCRay8, RTCRay16>(mode.rays, block, collecting.context);
+    tracer.trace<RTCRay, RTCRay8, RTCRay16>(mode.rays, block, queries);
 }
 
 }  // namespace detp::validate

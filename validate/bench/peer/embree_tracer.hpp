@@ -1,6 +1,5 @@
 #pragma once
 
-#include <embree3/rtcore.h>
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
@@ -9,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "detp/sim/base/embree.hpp"
 #include "embree_peer.hpp"
 
 /// Rays through Embree's scene of discs.

@@ -38,7 +38,8 @@ std::vector<TextCell> row_of(const BenchEntry& entry) {
   for (const bool ours : {true, false})
     for (TextCell& cell : side_cells(entry.best(ours))) cells.push_back(std::move(cell));
   cells.push_back(ratio ? TextCell{fmt::format("{:.2f}", *ratio), *ratio >= 1 ? Style::good : Style::bad}
-                        : TextCell{"stopped", Style::doubtful});
+                  : entry.race.complete ? TextCell{""}
+                                        : TextCell{"stopped", Style::doubtful});
   return cells;
 }
 
@@ -84,9 +85,10 @@ std::string summary_text(const BenchResult& bench, const validate::BenchOptions&
     }
   const validate::WrongHits wrong = validate::embree_wrong_hits(bench.entries);
   const bool agree = validate::do_own_hits_agree(bench.entries);
-  text += fmt::format("\nhits: ours {}; Embree, in single precision, is wrong about {} of {}\n",
-                      styled(screen, agree ? Style::good : Style::bad, agree ? "all agree" : "DO NOT AGREE"),
-                      wrong.wrong, wrong.hits);
+  text += fmt::format(
+      "\nhits: ours {}; {}\n", styled(screen, agree ? Style::good : Style::bad, agree ? "all agree" : "DO NOT AGREE"),
+      has_embree ? fmt::format("Embree, in single precision, is wrong about {} of {}", wrong.wrong, wrong.hits)
+                 : "this detp was built without Embree");
   return text;
 }
 

@@ -32,8 +32,8 @@ struct SharedParameter {
 /// All parameters in the order of the techniques, one for each name.
 std::vector<SharedParameter> shared_parameters() {
   std::vector<SharedParameter> all;
-  for (const TechniqueRecord& record : technique_records)
-    for (const Parameter& parameter : record.parameters) {
+  for (const Technique technique : all_techniques)
+    for (const Parameter& parameter : record_of(technique).parameters) {
       const auto same = std::find_if(all.begin(), all.end(),
                                      [&](const SharedParameter& one) { return one.parameter->name == parameter.name; });
       if (same == all.end())

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "detp/model/vocabulary/technique.hpp"
 #include "support/command.hpp"
 
 namespace detp::support {
@@ -125,8 +126,8 @@ TEST_SUITE("end to end") {
     CHECK(technique_of(scene) == "box-tree");
     CHECK(technique_of(scene + " --disable box-tree") != "box-tree");
     CHECK(technique_of(scene + " --disable box-tree,grid --rigor estimate") != "box-tree");
-    const std::set<std::string> disabled{"bvh", "grid", "octree", "ray-map", "bsp"};
-    const Json analysed = result_of("choose " + scene + " --disable bvh,grid,octree,ray-map,bsp --analyze");
+    const std::set<std::string> disabled{"grid", "octree", "ray-map", "bsp"};
+    const Json analysed = result_of("choose " + scene + " --disable grid,octree,ray-map,bsp --analyze");
     for (const Json& candidate : analysed.at("candidates")) CHECK(disabled.count(candidate.at("technique")) == 0);
     check_refused(
         {{"choose " + scene + " --disable tree", "sphere-tree"},
@@ -150,17 +151,17 @@ TEST_SUITE("end to end") {
     CHECK(techniques_of(" --technique box-tree,brute-force --rigor structural") == Names{"box-tree", "brute-force"});
     CHECK(techniques_of(" --technique box-tree,grid --rigor pilot --disable grid") == Names{"box-tree"});
     CHECK(techniques_of(" --technique cell-spheres --rigor measure") == Names{"cell-spheres"});
-    CHECK(techniques_of(" --technique bvh,grid --rigor measure") == Names{"bvh", "grid"});
+    CHECK(techniques_of(" --technique bsp,grid --rigor measure") == Names{"bsp", "grid"});
     const Json grid = result_of("choose " + scene + " --technique grid");
     CHECK(grid.at("choice").at("parameters") == result_of("run " + scene + " --technique grid").at("parameters"));
-    CHECK(grid.at("inputs").at("disabled").size() == 9);
+    CHECK(grid.at("inputs").at("disabled").size() == detp::exact_techniques.size() - 1);
     CHECK(result_of("choose " + scene).at("inputs").at("disabled").empty());
     const Json map =
         result_of("choose @uniform --samples 2000 --map --rays 100,1000 --disc-radius 2% --technique octree");
     for (const Json& cell : map.at("cells")) CHECK(cell.at("predicted").at("technique") == "octree");
     check_refused({{"choose " + scene + " --technique gird", "did you mean grid?"},
                    {"choose " + scene + " --technique grid --disable grid", "--technique with --disable leaves no"},
-                   {"choose " + scene + " --technique bvh", "--technique leaves no technique"},
+                   {"choose " + scene + " --technique bsp", "--technique leaves no technique"},
                    {"choose " + scene + " --technique grid --rigor pilot", "box-tree may not be chosen"},
                    {"choose " + scene + " --technique photon-map", "photon-map is never chosen"}});
   }

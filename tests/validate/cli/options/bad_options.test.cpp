@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "detp/model/vocabulary/technique.hpp"
 #include "support/command.hpp"
 
 namespace detp::support {
@@ -110,9 +111,9 @@ TEST_SUITE("bad input") {
     }
     check_refused(each(model_numbers + "--technique octree --depth", {"-1", "999", "1.5"}, "depth"));
     check_refused(each(model_numbers + "--technique grid --cells", {"0", "-1", "2.5"}, "cells"));
-    check_refused(each(uniform + "--technique bvh --quality", {"high", "Low", "1"}, "quality"));
+    if (detp::has_embree) check_refused(each(uniform + "--technique bvh --quality", {"high", "Low", "1"}, "quality"));
     check_refused(each(uniform + "--technique photon-map --nearest", {"2", "1.5"}, "nearest"));
-    check_refused({{model_numbers + "--technique bvh", "no closed form of bvh"},
+    check_refused({{model_numbers + "--technique bsp", "no closed form of bsp"},
                    {model_numbers + "--technique photon-map", "no closed form of photon-map"},
                    {uniform + "--technique photon-map", "no ray met one"},
                    {"run @cornell --rays 20 --technique photon-map", "needs the 50 nearest photons"}});
@@ -133,7 +134,7 @@ TEST_SUITE("bad input") {
                      {command + "--technique cell-spheres --leaf 3", "--leaf"},
                      {command + "--technique sphere-tree --depth 3", "--depth"},
                      {command + "--technique grid --quality low", "--quality"},
-                     {command + "--technique bvh --nearest 9", "--nearest"},
+                     {command + "--technique bsp --nearest 9", "--nearest"},
                      {command + "--technique brute-force --ratio 0.5", "--ratio"},
                      {command + "--technique brute-force --order none", "--order"}});
   }
