@@ -13,6 +13,12 @@
 /// The techniques, one record each. CONTRIBUTING.md says what a new technique needs.
 namespace detp {
 
+#ifdef DETP_WITHOUT_EMBREE
+inline constexpr bool has_embree = false;
+#else
+inline constexpr bool has_embree = true;
+#endif
+
 enum class Technique {
   brute_force,
   sphere_cache,
@@ -27,12 +33,6 @@ enum class Technique {
   ray_map,
   photon_map
 };
-
-#ifdef DETP_WITHOUT_EMBREE
-inline constexpr bool has_embree = false;
-#else
-inline constexpr bool has_embree = true;
-#endif
 
 using Parameter = ParameterRecord<Parameters>;
 
@@ -219,12 +219,10 @@ static_assert([] {
   return true;
 }());
 
-namespace records {
-
-/// The techniques that this build has and that are `wanted`, in the order of the records.
-template <auto wanted>
-inline constexpr auto built = [] {
-  constexpr auto is_one = [](const TechniqueRecord& record) { return record.built && wanted(record); };
+/// The techniques that this build has, in the order of the records; if `only_exact`, those that find every hit.
+template <bool only_exact>
+inline constexpr auto built_techniques = [] {
+  constexpr auto is_one = [](const TechniqueRecord& record) { return record.built && (record.exact || !only_exact); };
   constexpr auto count = std::ranges::count_if(technique_records, is_one);
   std::array<Technique, count> found{};
   std::size_t place = 0;
@@ -233,13 +231,11 @@ inline constexpr auto built = [] {
   return found;
 }();
 
-}  // namespace records
-
 /// Every technique, in the order of the records. Those that find every hit, and so can be chosen: exact_techniques.
-inline constexpr auto all_techniques = records::built<[](const TechniqueRecord&) { return true; }>;
+inline constexpr auto all_techniques = built_techniques<false>;
 
 /// The techniques that find every hit, in the order of the records: the candidates of a choice.
-inline constexpr auto exact_techniques = records::built<[](const TechniqueRecord& record) { return record.exact; }>;
+inline constexpr auto exact_techniques = built_techniques<true>;
 
 [[nodiscard]] constexpr std::string_view name(Technique technique) { return record_of(technique).name; }
 
