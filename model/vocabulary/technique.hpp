@@ -13,6 +13,7 @@
 /// The techniques, one record each. CONTRIBUTING.md says what a new technique needs.
 namespace detp {
 
+/// Whether this build has Embree, which bvh needs.
 #ifdef DETP_WITHOUT_EMBREE
 inline constexpr bool has_embree = false;
 #else
