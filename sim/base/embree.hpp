@@ -114,9 +114,10 @@ template <class Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
 /// Throws if an operation on the device has failed since the last call, or if there is no device because rtcNewDevice
-/// failed: OutOfMemory, or std::runtime_error with Embree's error number.
-inline void require_no_error(const Owned<RTCDevice>& device) {
-  const RTCError error = rtcGetDeviceError(device.get());
+/// failed: Stopped ("stopped while " + doing), OutOfMemory, or std::runtime_error with Embree's error number.
+inline void require_no_error(RTCDevice device, const char* doing = "working") {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_CANCELLED) throw Stopped(std::string("stopped while ") + doing);
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw OutOfMemory("Embree builds its tree");
   if (error != RTC_ERROR_NONE || device == nullptr)
     throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
@@ -130,11 +131,7 @@ inline void commit(RTCDevice device, RTCScene scene, const std::stop_token& stop
   rtcSetSceneProgressMonitorFunction(scene, go_on, const_cast<std::stop_token*>(&stop));
   rtcCommitScene(scene);
   rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
-  const RTCError error = rtcGetDeviceError(device);
-  if (error == RTC_ERROR_CANCELLED) throw Stopped(std::string("stopped while ") + doing);
-  if (error == RTC_ERROR_OUT_OF_MEMORY) throw OutOfMemory("Embree builds its tree");
-  if (error != RTC_ERROR_NONE)
-    throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
+  require_no_error(device, doing);
 }
 
 }  // namespace detp::sim::embree

@@ -43,6 +43,15 @@ bool addresses_are_limited() {
   return getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY;
 }
 
+/// The whole pages among these bytes; none if the second number is 0.
+std::pair<char*, std::size_t> whole_pages(char* start, std::size_t bytes) {
+  static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto address = reinterpret_cast<std::uintptr_t>(start);
+  const std::uintptr_t first = rounded_up(address, page);
+  const std::uintptr_t last = (address + bytes) / page * page;
+  return {start + (first - address), first < last ? last - first : 0};
+}
+
 /// Whether the thread allocates for allocate_untouched, and its answer.
 struct Untouching {
   bool wanted = false;
@@ -92,13 +101,10 @@ class Region {
 
   /// Gives pages of free ranges back to the system, from the top down, until at most `most` bytes are kept.
   void keep(std::size_t most) {
-    static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
     for (auto next = free_.end(); kept_ > most && next != free_.begin();) {
       auto& [start, range] = *--next;
-      const auto address = reinterpret_cast<std::uintptr_t>(start);
-      const std::uintptr_t first = rounded_up(address, page);
-      const std::uintptr_t last = (address + range.bytes) / page * page;
-      if (range.kept > 0 && first < last) madvise(start + (first - address), last - first, MADV_DONTNEED);
+      const auto [first, bytes] = whole_pages(start, range.bytes);
+      if (range.kept > 0 && bytes > 0) madvise(first, bytes, MADV_DONTNEED);
       kept_ -= range.kept;
       range.kept = 0;
     }
@@ -298,11 +304,8 @@ UntouchedBytes allocate_untouched(std::pmr::memory_resource& memory, std::size_t
 
 void touch_pages([[maybe_unused]] void* start, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_POPULATE_WRITE
-  static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  const auto address = reinterpret_cast<std::uintptr_t>(start);
-  const std::uintptr_t first = rounded_up(address, page);
-  const std::uintptr_t last = (address + std::min(bytes, most_touched_at_once)) / page * page;
-  if (first < last) madvise(static_cast<char*>(start) + (first - address), last - first, MADV_POPULATE_WRITE);
+  const auto [first, size] = whole_pages(static_cast<char*>(start), std::min(bytes, most_touched_at_once));
+  if (size > 0) madvise(first, size, MADV_POPULATE_WRITE);
 #endif
 }
 

@@ -93,7 +93,7 @@ class Bvh {
   Bvh(const Problem& problem, BuildQuality quality, int threads, const std::stop_token& stop)
       : discs_(problem.discs()), frame_(problem) {
     require_memory("the BVH", bytes_per_disc * static_cast<double>(problem.discs().size()));
-    embree::require_no_error(device_);
+    embree::require_no_error(device_.get());
     scene_.reset(rtcNewScene(device_.get()));
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
     const auto effort = quality == BuildQuality::low ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM;

@@ -15,22 +15,6 @@ constexpr float box_slack = 2e-6F;
 constexpr float distance_slack = 1e-5F;
 constexpr double start_radius = 1.5;
 
-ItemBox box_of(const Facet& facet) {
-  Box box;
-  for (const glm::dvec3& corner : {facet.corner, facet.corner + facet.first, facet.corner + facet.second})
-    box.include(corner);
-  return {glm::vec3(box.low) - box_slack, glm::vec3(box.high) + box_slack};
-}
-
-ItemTree tree_over(std::span<const Facet> facets, const std::stop_token& stop) {
-  constexpr const char* doing = "building a tree over the scene's triangles";
-  std::vector<ItemBox> boxes;
-  boxes.reserve(facets.size());
-  StopCheck check(stop, doing);
-  for_each_checked(facets, check, [&](const Facet& facet) { boxes.push_back(box_of(facet)); });
-  return {boxes, stop, doing};
-}
-
 /// Distance along the ray to the sphere around (0, 0, 0) with radius start_radius, which contains the whole mesh. 0 if
 /// the ray starts inside the sphere; negative if the ray never enters it.
 double entry(const glm::dvec3& origin, const glm::dvec3& direction) {
@@ -61,7 +45,8 @@ RayCaster::RayCaster(const Mesh& mesh, const Box& box, const std::stop_token& st
         make_facet(to_caster(mesh.positions[a]), to_caster(mesh.positions[b]), to_caster(mesh.positions[c])));
   });
   distinct_ = distinct_facets(std::move(facets), stop);
-  tree_.emplace(tree_over(distinct_.facets, stop));
+  tree_.emplace(facet_tree(
+      distinct_.facets, [](const glm::dvec3& corner) { return corner; }, box_slack, stop));
 }
 
 std::optional<RayCaster::Intersection> RayCaster::first_intersection(const glm::dvec3& origin,

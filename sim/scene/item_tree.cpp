@@ -20,7 +20,6 @@ constexpr std::uint32_t most_in_leaf = 4;
 constexpr std::size_t bins = 16;
 constexpr int most_depth = 48;                        // deeper nodes are halved, so that the depth is bounded
 constexpr std::uint32_t least_for_threads = 1 << 12;  // items
-constexpr float cost_of_item = 1;                     // times that of a binary node
 
 HWY_INLINE void include(ItemBox& box, const ItemBox& other) {
   box.low = glm::min(box.low, other.low);
@@ -117,14 +116,14 @@ class ItemTreeBuilder {
       if (extent[axis] > 1e-30F) into.scale[axis] = static_cast<float>(bins) * 0.99999F / extent[axis];
     const Split best = depth < most_depth ? best_split(items, into) : Split{};
     const float whole = area(box);
-    const bool leaf = count <= most_in_leaf && !(best.cost + whole < whole * cost_of_item * static_cast<float>(count));
+    const bool leaf = count <= most_in_leaf && !(best.cost + whole < whole * static_cast<float>(count));
     if (leaf) return 0;
     if (best.cost == infinite) return halved(items, extent);
     const auto goes_left = [&](std::uint32_t item) { return into.of(boxes_[item], best.axis) < best.bin; };
     return static_cast<std::uint32_t>(std::partition(items.begin(), items.end(), goes_left) - items.begin());
   }
 
-  /// The split with the least area times items; an infinite cost if all centres are in one bin of each axis.
+  /// The split with the least area times items (a test of an item costs as much as one of a node's box); an infinite cost if all centres are in one bin of each axis.
   [[nodiscard]] Split best_split(std::span<const std::uint32_t> items, const Bins& into) const {
     std::array<std::array<Bin, bins>, 3> all;
     for (const std::uint32_t item : items)
@@ -149,7 +148,7 @@ class ItemTreeBuilder {
         include(left.box, of_axis[bin - 1].box);
         left.count += of_axis[bin - 1].count;
         if (left.count == 0) continue;
-        const float cost = cost_of_item * (area(left.box) * static_cast<float>(left.count) + right_cost[bin]);
+        const float cost = area(left.box) * static_cast<float>(left.count) + right_cost[bin];
         if (cost < best.cost) best = {cost, axis, bin};
       }
     }
@@ -214,6 +213,21 @@ ItemTree::ItemTree(std::span<const ItemBox> boxes, const std::stop_token& stop, 
     : items_(boxes.size()) {
   if (boxes.empty()) return;
   ItemTreeBuilder(boxes, items_, stop, doing).widen(nodes_);
+}
+
+ItemTree facet_tree(std::span<const Facet> facets, FunctionRef<glm::dvec3(const glm::dvec3&)> own, float margin,
+                    const std::stop_token& stop) {
+  constexpr const char* doing = "building a tree over the scene's triangles";
+  std::vector<ItemBox> boxes;
+  boxes.reserve(facets.size());
+  StopCheck check(stop, doing);
+  for_each_checked(facets, check, [&](const Facet& facet) {
+    Box box;
+    for (const glm::dvec3& corner : {facet.corner, facet.corner + facet.first, facet.corner + facet.second})
+      box.include(own(corner));
+    boxes.push_back({glm::vec3(box.low) - margin, glm::vec3(box.high) + margin});
+  });
+  return {boxes, stop, doing};
 }
 
 }  // namespace detp::sim

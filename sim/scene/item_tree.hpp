@@ -8,6 +8,7 @@
 
 #include "detp/sim/base/function_ref.hpp"
 #include "detp/sim/base/page_pool.hpp"
+#include "facet.hpp"
 
 namespace detp::sim {
 
@@ -17,8 +18,8 @@ struct ItemBox {
   glm::vec3 high;
 };
 
-/// A tree of boxes over items, with eight children a node, for rays and for points. Coordinates should be at most about 1 in size: the callers'
-/// boxes have margins for rounding.
+/// A tree of boxes over items, with eight children a node, for rays and for points. Works in single precision: with coordinates up to 1.5 and rays up
+/// to 3 long, the faces of a box are met as if they were displaced by less than 1e-6, so boxes need that margin.
 ///
 /// Each node is split where the expected cost of a ray is least (surface-area heuristic) among 16 bins along each axis: Wald, "On fast Construction of
 /// SAH-based Bounding Volume Hierarchies", IEEE Symposium on Interactive Ray Tracing, 2007. The tree does not depend on the number of threads.
@@ -47,5 +48,10 @@ class ItemTree {
   UnsetVector<Node> nodes_;
   UnsetVector<std::uint32_t> items_;  ///< leaf by leaf
 };
+
+/// A tree over facets, whose corners have the coordinates own(corner) in it. Boxes are `margin` larger on each side. Throws Stopped if a stop
+/// was requested.
+[[nodiscard]] ItemTree facet_tree(std::span<const Facet> facets, FunctionRef<glm::dvec3(const glm::dvec3&)> own,
+                                  float margin, const std::stop_token& stop);
 
 }  // namespace detp::sim

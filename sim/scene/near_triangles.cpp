@@ -35,17 +35,8 @@ NearTriangles::NearTriangles(const Mesh& mesh, const std::stop_token& stop) {
     const double half = 0.5 * std::hypot(size.x, size.y, size.z);
     if (half > 0) scale_ = half;
   }
-  constexpr const char* doing = "building a tree over the scene's triangles";
-  std::vector<ItemBox> boxes;
-  boxes.reserve(distinct_.facets.size());
-  StopCheck check(stop, doing);
-  for_each_checked(std::span(distinct_.facets), check, [&](const Facet& facet) {
-    Box box;
-    for (const glm::dvec3& corner : {facet.corner, facet.corner + facet.first, facet.corner + facet.second})
-      box.include(own(corner));
-    boxes.push_back({glm::vec3(box.low) - box_margin, glm::vec3(box.high) + box_margin});
-  });
-  tree_.emplace(boxes, stop, doing);
+  tree_.emplace(facet_tree(
+      distinct_.facets, [this](const glm::dvec3& corner) { return own(corner); }, box_margin, stop));
   seconds_ = watch.seconds();
 }
 

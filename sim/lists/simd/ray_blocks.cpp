@@ -5,7 +5,6 @@
 #include <cstring>
 #include <vector>
 
-#include "detp/sim/base/page_pool.hpp"
 #include "detp/sim/base/parallel.hpp"
 
 namespace detp::sim::stream {
@@ -18,22 +17,8 @@ constexpr std::size_t most_copied = std::size_t{1} << 18;
 /// Rays for which a list needs room beyond its own, for each piece that it is loaded in.
 constexpr std::size_t room_of_piece = 2 * padding;
 
-constexpr std::size_t arrays = 7;  // of a list
-
-std::array<void*, arrays> arrays_of(const RayList& list) {
-  return {list.a, list.b, list.p, list.q, list.id, list.from, list.to};
-}
-
-/// Touches new pages for so many rays at once. A third of them is expected in each class.
-void touch_lists(const RayLists& lists, std::size_t rays) {
-  for (const RayList& list : lists)
-    for (void* const array : arrays_of(list))
-      if (array != nullptr) touch_pages(array, rays / classes * sizeof(float));
-}
-
 /// Loads the pieces at the same time, and moves their lists together.
-RayTraits load_in_pieces(std::span<const Ray> rays, const Frame& frame, std::size_t pieces, bool fresh,
-                         RayLists& lists) {
+RayTraits load_in_pieces(std::span<const Ray> rays, const Frame& frame, std::size_t pieces, RayLists& lists) {
   const std::size_t step = (rays.size() / pieces / padding + 1) * padding;
   struct Piece {
     RayLists lists;
@@ -44,7 +29,6 @@ RayTraits load_in_pieces(std::span<const Ray> rays, const Frame& frame, std::siz
     const std::size_t first = std::min(i * step, rays.size());
     const auto some = rays.subspan(first, std::min(step, rays.size() - first));
     for (std::size_t k = 0; k < classes; ++k) all[i].lists[k] = part_of(lists[k], i * (step + room_of_piece), 0);
-    if (fresh) touch_lists(all[i].lists, some.size());
     if (!some.empty()) all[i].traits = load_rays(some, frame, all[i].lists, static_cast<std::uint32_t>(first));
   });
   RayTraits traits = all.front().traits;
@@ -53,9 +37,13 @@ RayTraits load_in_pieces(std::span<const Ray> rays, const Frame& frame, std::siz
     traits.segments |= piece.traits.segments;
     if (piece.traits.power != traits.power) traits.power = std::nullopt;
   }
+  constexpr std::size_t arrays = 7;
   sim::parallel_for(std::size_t{0}, classes * arrays, [&](std::size_t i) {
     const std::size_t k = i / arrays;
-    const auto array = [&](const RayList& list) { return arrays_of(list)[i % arrays]; };
+    const auto array = [&](const RayList& list) -> void* {
+      const std::array<void*, arrays> of_list{list.a, list.b, list.p, list.q, list.id, list.from, list.to};
+      return of_list[i % arrays];
+    };
     auto* const start = static_cast<char*>(array(lists[k]));
     if (start == nullptr) return;
     std::size_t end = 0;
@@ -81,15 +69,10 @@ void Block::load(const Problem& problem, const Frame& frame, std::size_t first, 
   const auto rays = problem.rays().subspan(first, std::min(size, problem.rays().size() - first));
   arena_.release({});
   capacity_ = std::max(capacity_, rays.size() + pieces * room_of_piece);
-  for (RayList& list : lists_) list = arena_.allocate(capacity_, problem.segments());
+  // A third of the rays is expected in each class.
+  for (RayList& list : lists_) list = arena_.allocate(capacity_, problem.segments(), rays.size() / classes);
   size_ = rays.size();
-  const bool fresh = arena_.has_fresh_pages();
-  if (pieces > 1) {
-    traits_ = load_in_pieces(rays, frame, pieces, fresh, lists_);
-  } else {
-    if (fresh) touch_lists(lists_, rays.size());
-    traits_ = load_rays(rays, frame, lists_);
-  }
+  traits_ = pieces == 1 ? load_rays(rays, frame, lists_) : load_in_pieces(rays, frame, pieces, lists_);
   if (!keep_powers_) return;
   powers_.resize(capacity_);
   for (std::size_t i = 0; i < rays.size(); ++i) powers_[i] = rays[i].power;

@@ -1,6 +1,7 @@
 #include "ray_list.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/page_pool.hpp"
@@ -31,10 +32,9 @@ void ListArena::next_chunk(std::size_t most, bool segments) {
   const UntouchedBytes block = allocate_untouched(*memory, floats * sizeof(float));
   auto* const start = static_cast<float*>(block.start);
   chunks_.push_back({{start, {memory, floats}}, stride, stride, segments});
-  fresh_ |= block.fresh;
-  if (!block.fresh || chunk_ > 0) return;
-  for (std::size_t array = 0; array < floats; array += stride)
-    touch_pages(start + array, std::min(touched_, rays) * sizeof(float));
+  const std::size_t touched = std::min(std::exchange(touched_, 0), rays);
+  if (!block.fresh || touched == 0) return;
+  for (std::size_t array = 0; array < floats; array += stride) touch_pages(start + array, touched * sizeof(float));
 }
 
 }  // namespace detp::sim::stream

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
-#include <utility>
 #include <vector>
 
 #include "detp/sim/base/page_pool.hpp"
@@ -60,8 +59,9 @@ class ListArena {
                      std::size_t touched = 0)
       : expected_(expected), touched_(touched), chunks_(memory) {}
 
-  /// A list with room for `capacity` rays.
-  [[nodiscard]] RayList allocate(std::size_t capacity, bool segments) {
+  /// A list with room for `capacity` rays. New pages for the first `touched` are touched at once.
+  [[nodiscard]] RayList allocate(std::size_t capacity, bool segments, std::size_t touched = 0) {
+    touched_ = touched;
     const RayList list = next(capacity, segments);
     used_ += rounded(capacity + padding);
     return list;
@@ -84,9 +84,6 @@ class ListArena {
 
   /// Keeps the list of the latest call of next(), as it is filled.
   void keep(const RayList& list) { used_ += rounded(list.size); }
-
-  /// Whether new pages came into the arena since the last call.
-  [[nodiscard]] bool has_fresh_pages() { return std::exchange(fresh_, false); }
 
   struct Mark {
     std::size_t chunk;
@@ -111,12 +108,11 @@ class ListArena {
     bool segments;
   };
   std::size_t expected_;
-  std::size_t touched_;
+  std::size_t touched_;  ///< of the next chunk
   std::pmr::vector<Chunk> chunks_;
   std::size_t chunk_ = 0;
   std::size_t used_ = 0;  ///< rays
   double bytes_ = 0;      ///< of all chunks
-  bool fresh_ = false;
 };
 
 /// At the end of a scope, frees the lists allocated in that scope.

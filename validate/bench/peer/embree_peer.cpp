@@ -35,26 +35,17 @@ float* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, st
   return static_cast<float*>(rtcSetNewGeometryBuffer(geometry, type, 0, format, floats * sizeof(float), items));
 }
 
-/// If an Embree call of this thread has failed, throws std::bad_alloc if Embree was out of memory, else
-/// std::runtime_error with Embree's error number.
-void require_no_embree_error(RTCDevice device) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-  if (error != RTC_ERROR_NONE)
-    throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
-}
-
 /// A device that builds with `threads` threads, which have been started when the function returns. It uses the counterpart of one of our
 /// instruction sets (AVX3: AVX-512; AVX2; SSE4: SSE4.2), or all that the machine has if this is empty.
 sim::embree::Owned<RTCDevice> make_embree_device(int threads, const std::string& instruction_set) {
   const std::string settings = "threads=" + std::to_string(threads) + ",start_threads=1" + setting_of(instruction_set);
   sim::embree::Owned<RTCDevice> device(rtcNewDevice(settings.c_str()));
-  require_no_embree_error(device.get());
+  sim::embree::require_no_error(device.get());
   return device;
 }
 
 /// A committed scene of oriented discs in single precision. Primitive i is disc i. Queries call the context's filter.
-/// Throws sim::Stopped if a stop was requested, and as require_no_embree_error does.
+/// Throws sim::Stopped if a stop was requested, and as sim::embree::require_no_error does.
 sim::embree::Owned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::Disc> discs,
                                                 EmbreeQuality quality, const std::stop_token& stop) {
   sim::embree::Owned<RTCScene> scene(rtcNewScene(device));
@@ -64,7 +55,7 @@ sim::embree::Owned<RTCScene> build_embree_discs(RTCDevice device, std::span<cons
   rtcSetGeometryBuildQuality(geometry.get(), to_embree(quality));
   float* vertex = new_buffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, 4, discs.size());
   float* normal = new_buffer(geometry.get(), RTC_BUFFER_TYPE_NORMAL, RTC_FORMAT_FLOAT3, 3, discs.size());
-  require_no_embree_error(device);
+  sim::embree::require_no_error(device);
   sim::parallel_for(sim::ParallelRange(0, discs.size(), 4096), [&](const sim::ParallelRange& part) {
     for (std::size_t i = part.begin(); i < part.end(); ++i) {
       const sim::Disc& disc = discs[i];
@@ -139,7 +130,7 @@ PeerOutcome EmbreePeer::run(std::span<const sim::Ray> rays, std::span<const sim:
   });
   PeerOutcome outcome = merged(all, discs);
   outcome.stopped = stop.stop_requested();
-  require_no_embree_error(threads_->device.get());
+  sim::embree::require_no_error(threads_->device.get());
   return outcome;
 } catch (const sim::Stopped&) {
   return {.hits = {}, .irradiance = {}, .stopped = true};
